@@ -1,0 +1,163 @@
+"""The only mutable thing of the program: the history of documents, the selection, the file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from core.document import Document
+from core.history import History
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Selected control points, as pairs (curve, point), and the curve that new points go to.
+
+    It belongs to the view: it is neither saved nor undone.
+    """
+
+    points: frozenset[tuple[int, int]] = frozenset()
+    curve: int = 0
+
+    def of_curve(self, curve: int) -> list[int]:
+        """Sorted indices of the selected points of one curve."""
+        return sorted(point for c, point in self.points if c == curve)
+
+    def within(self, document: Document) -> Selection:
+        """The part of the selection that exists in a document."""
+        sizes = [len(curve.points) for curve in document.curves]
+        points = frozenset(
+            (c, p) for c, p in self.points if c < len(sizes) and p < sizes[c]
+        )
+        curve = min(self.curve, max(len(sizes) - 1, 0))
+        return self if (points, curve) == (self.points, self.curve) else Selection(points, curve)
+
+
+class Session(QObject):
+    """The document being edited.
+
+    Views read `document`, call the verbs, and redraw on `changed`, comparing the fields that they
+    read by identity. Nothing else in the program is mutable model state.
+
+    Signals
+    -------
+    changed(old, new)
+        The document changed, once per edit; both are `core.document.Document`.
+    selection_changed(old, new)
+        The selection changed; both are `Selection`.
+    status_changed()
+        The file's path, the unsaved mark or the names of undo and redo changed.
+    """
+
+    changed = Signal(object, object)
+    selection_changed = Signal(object, object)
+    status_changed = Signal()
+
+    def __init__(self, document: Document | None = None, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._history = History(document or Document())
+        self._saved = self._history.document
+        self._path: Path | None = None
+        self._selection = Selection()
+
+    @property
+    def document(self) -> Document:
+        """The document as it is now."""
+        return self._history.document
+
+    @property
+    def origin(self) -> Document:
+        """The document at the start of the open gesture, or the present one."""
+        return self._history.origin
+
+    @property
+    def selection(self) -> Selection:
+        """The selected points."""
+        return self._selection
+
+    @property
+    def path(self) -> Path | None:
+        """The file that Save writes to, or None for a document that never was saved."""
+        return self._path
+
+    @property
+    def is_modified(self) -> bool:
+        """Whether the document differs from the one last opened or saved."""
+        return self.document is not self._saved
+
+    @property
+    def in_gesture(self) -> bool:
+        """Whether a gesture is open."""
+        return self._history.in_gesture
+
+    @property
+    def undo_name(self) -> str | None:
+        """Name of the edit that undo takes back."""
+        return self._history.undo_name
+
+    @property
+    def redo_name(self) -> str | None:
+        """Name of the edit that redo brings back."""
+        return self._history.redo_name
+
+    def begin(self, name: str) -> None:
+        """Open a gesture: all edits until `commit` are one step of undo."""
+        self._history.begin(name)
+
+    def edit(self, document: Document, name: str = "") -> None:
+        """Make ``document`` the present one; a step of undo called ``name``, unless in a gesture."""
+        old = self.document
+        self._history.record(document, name)
+        self._announce(old)
+
+    def commit(self) -> None:
+        """Close the gesture and keep what it did."""
+        self._history.commit()
+        self.status_changed.emit()
+
+    def cancel(self) -> None:
+        """Close the gesture and restore the document that it began with."""
+        old = self.document
+        self._history.cancel()
+        self._announce(old)
+
+    def undo(self) -> None:
+        """Take the last edit back."""
+        old = self.document
+        self._history.undo()
+        self._announce(old)
+
+    def redo(self) -> None:
+        """Bring the last undone edit back."""
+        old = self.document
+        self._history.redo()
+        self._announce(old)
+
+    def select(self, selection: Selection) -> None:
+        """Change the selection."""
+        old, self._selection = self._selection, selection.within(self.document)
+        if old != self._selection:
+            self.selection_changed.emit(old, self._selection)
+
+    def replace(self, document: Document, path: Path | None) -> None:
+        """Go over to another document (New, Open): a new history, nothing selected."""
+        old = self.document
+        self._history = History(document)
+        self._saved = document
+        self._path = path
+        self.select(Selection())
+        self._announce(old)
+
+    def mark_saved(self, path: Path) -> None:
+        """Take note that the present document is what the file holds."""
+        self._path = path
+        self._saved = self.document
+        self.status_changed.emit()
+
+    def _announce(self, old: Document) -> None:
+        if old is not self.document:
+            self.select(self._selection)
+            self.changed.emit(old, self.document)
+        self.status_changed.emit()

@@ -1,0 +1,205 @@
+"""The basic limit function phi: support, exact dyadic values, limit stencils, evaluation table.
+
+Notes
+-----
+``phi`` is indexed by the symbol: ``phi(x) = sum_i a_i phi(2x - i)``, so its support is
+``[start, end]`` of the mask. All schemes here are dual: with control point ``p_i`` at the curve
+parameter ``t = i``, the curve is ``C(t) = sum_i p_i phi(t - i + 1/2)`` (theory, section 1).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache, cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.errors import NoLimitError
+from core.mask import Mask, Stencil
+
+HALF = Fraction(1, 2)
+"""Shift between the symbol's variable x and the curve parameter: x = t + 1/2 (dual schemes)."""
+
+_NO_LIMIT = (
+    "This scheme has no unique limit curve for these parameters; move a slider a little."
+)
+
+
+@dataclass(frozen=True)
+class BasicLimitFunction:
+    """The limit of the scheme on the data 1 at ``t = 0`` and 0 at all other integers.
+
+    Parameters
+    ----------
+    mask
+        Mask of a scheme whose rules sum to 1. For a scheme that does not converge the values at
+        each dyadic level are still those of the refinement equation, but they grow from level to
+        level.
+
+    Raises
+    ------
+    NoLimitError
+        By the members that need values, if 1 is not a simple eigenvalue of the integer matrix.
+    """
+
+    mask: Mask
+
+    @property
+    def support(self) -> tuple[Fraction, Fraction]:
+        """Ends of the support in t; the support in x is ``[mask.start, mask.end]``."""
+        return self.mask.start - HALF, self.mask.end - HALF
+
+    @cached_property
+    def integer_values(self) -> dict[int, Fraction]:
+        """Exact values ``phi(j)``, j = start..end (theory, section 6).
+
+        They are the eigenvector for eigenvalue 1 of ``M_{jk} = a_{2j-k}`` over the interior of
+        the support, scaled to sum 1.
+        """
+        inner = range(self.mask.start + 1, self.mask.end)
+        # The columns of M sum to 1, so the rows of M - I sum to zero: any one of them can give
+        # way to the normalisation.
+        rows = [[self.mask[2 * j - k] - (j == k) for k in inner] for j in inner[1:]]
+        rows.append([Fraction(1)] * len(inner))
+        right = [Fraction(0)] * (len(inner) - 1) + [Fraction(1)]
+        solution = _solved(rows, right)
+        values = dict.fromkeys(range(self.mask.start, self.mask.end + 1), Fraction(0))
+        values.update(zip(inner, solution, strict=True))
+        return values
+
+    def at(self, x: Fraction) -> Fraction:
+        """Exact value ``phi(x)`` at a dyadic ``x`` (denominator a power of two).
+
+        Raises
+        ------
+        ValueError
+            If x is not dyadic.
+        """
+        if x.denominator & (x.denominator - 1):
+            raise ValueError(f"{x} is not dyadic")
+        return _exact_value(self, x)
+
+    def limit_stencil(self, t: Fraction = Fraction(0)) -> Stencil:
+        """Exact weights of the control points ``p_j`` in the curve point ``C(t)``, t dyadic."""
+        first = (t + HALF - self.mask.end).__floor__() + 1
+        last = (t + HALF - self.mask.start).__ceil__() - 1
+        weights = {j: self.at(t + HALF - j) for j in range(first, last + 1)}
+        nonzero = [j for j, weight in weights.items() if weight != 0]
+        offsets = range(nonzero[0], nonzero[-1] + 1)
+        return Stencil(offsets[0], tuple(weights[j] for j in offsets))
+
+    @cached_property
+    def _float_integer_values(self) -> NDArray[np.float64]:
+        """The values of `integer_values` from a floating-point solve, start..end."""
+        mask = self.mask
+        inner = np.arange(mask.start + 1, mask.end)
+        index = 2 * inner[:, None] - inner[None, :] - mask.start
+        inside = (index >= 0) & (index < len(mask.values))
+        matrix = np.where(inside, mask.values[np.clip(index, 0, len(mask.values) - 1)], 0.0)
+        matrix -= np.eye(len(inner))
+        matrix[0] = 1.0
+        right = np.zeros(len(inner))
+        right[0] = 1.0
+        try:
+            solution = np.linalg.solve(matrix, right)
+        except np.linalg.LinAlgError:
+            raise NoLimitError(_NO_LIMIT) from None
+        if not np.isfinite(solution).all():
+            raise NoLimitError(_NO_LIMIT)
+        return np.concatenate([[0.0], solution, [0.0]])
+
+    def values(self, level: int) -> NDArray[np.float64]:
+        """Values of phi at all dyadic points of a level, rounded to floats.
+
+        Parameters
+        ----------
+        level
+            The points are ``x = start + k / 2^level``.
+
+        Returns
+        -------
+        ndarray
+            Shape ``((end - start) 2^level + 1,)``, read-only; the first and last value are 0.
+        """
+        return _float_values(self, level)
+
+    def parameters(self, level: int) -> NDArray[np.float64]:
+        """Curve parameters t of the entries of `values`: ``start - 1/2 + k / 2^level``."""
+        width = self.mask.end - self.mask.start
+        return float(self.support[0]) + np.arange(width * 2**level + 1) / 2**level
+
+    def table(self, level: int) -> NDArray[np.float64]:
+        """Evaluation table of one span (theory, section 6).
+
+        Parameters
+        ----------
+        level
+            The span ``[i, i+1)`` is evaluated at ``t = i + m / 2^level``.
+
+        Returns
+        -------
+        ndarray
+            ``B[r, m]``, shape ``(end - start + 1, 2^level)``, with
+            ``C(i + m / 2^level) = sum_r B[r, m] p_{i + r + 1 - end}``.
+        """
+        return _table(self, level)
+
+
+def _solved(rows: list[list[Fraction]], right: list[Fraction]) -> list[Fraction]:
+    """Solution of a square linear system in exact fractions (Gauss-Jordan elimination)."""
+    size = len(rows)
+    system = [[*row, value] for row, value in zip(rows, right, strict=True)]
+    for column in range(size):
+        pivot = next((r for r in range(column, size) if system[r][column] != 0), None)
+        if pivot is None:
+            raise NoLimitError(_NO_LIMIT)
+        system[column], system[pivot] = system[pivot], system[column]
+        lead = system[column]
+        inverse = 1 / lead[column]
+        system[column] = lead = [entry * inverse for entry in lead]
+        for r in range(size):
+            factor = system[r][column]
+            if r != column and factor != 0:
+                system[r] = [a - factor * b for a, b in zip(system[r], lead, strict=True)]
+    return [row[-1] for row in system]
+
+
+@cache
+def _exact_value(phi: BasicLimitFunction, x: Fraction) -> Fraction:
+    """Value at a dyadic x by the refinement equation, down to the integers."""
+    mask = phi.mask
+    if not mask.start < x < mask.end:
+        return Fraction(0)
+    if x.denominator == 1:
+        return phi.integer_values[int(x)]
+    return sum((a * _exact_value(phi, 2 * x - i) for i, a in mask.items()), Fraction(0))
+
+
+@cache
+def _float_values(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
+    """Level by level: ``v[k] at level L+1 = sum_i a_i v[k - (i - start) 2^L] at level L``."""
+    if level == 0:
+        values = phi._float_integer_values
+    else:
+        coarse = _float_values(phi, level - 1)
+        step = 2 ** (level - 1)
+        width = phi.mask.end - phi.mask.start
+        values = np.zeros(2 * width * step + 1)
+        for i, a in enumerate(phi.mask.values):
+            values[i * step : i * step + len(coarse)] += a * coarse
+    values.flags.writeable = False
+    return values
+
+
+@cache
+def _table(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
+    """Cut phi, half a span ahead of its support, into spans; the last one is row 0."""
+    fine = max(level, 1)
+    half = 2 ** (fine - 1)
+    padded = np.concatenate([np.zeros(half), phi.values(fine), np.zeros(half - 1)])
+    spans = padded.reshape(-1, 2**fine)
+    table = np.ascontiguousarray(spans[::-1, :: 2 ** (fine - level)])
+    table.flags.writeable = False
+    return table

@@ -1,0 +1,95 @@
+"""How a polygon goes on beyond its points: cyclically, or by odd reflection (theory, section 7)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.basis import BasicLimitFunction
+from core.mask import Mask
+
+
+def reach(mask: Mask) -> tuple[int, int]:
+    """Number of phantom points that the curve reads beyond the first and the last span's ends.
+
+    ``C(t)`` for t in [i, i+1) reads ``p_{i - left}, ..., p_{i + 1 + right}``.
+    """
+    return mask.end - 1, -mask.start
+
+
+def extended(points: NDArray[np.float64], mask: Mask, closed: bool) -> NDArray[np.float64]:
+    """Polygon with the phantom points that make it endless, as far as the curve reads them.
+
+    Parameters
+    ----------
+    points
+        Control points ``p_0..p_{n-1}``, shape (n, d), n >= 1.
+    mask
+        The scheme; it decides how far, and at open ends which points are reflected.
+    closed
+        Closed: indices modulo n, so that each of the n spans finds its points. Open: odd
+        reflection ``p_{-j} = 2 e_0 - p_j``, with the end points ``e_0, e_{n-1}`` in place of
+        ``p_0, p_{n-1}`` such that the limit curve starts at ``p_0`` and ends at ``p_{n-1}``. For a
+        symmetric mask they are those points themselves.
+
+    Returns
+    -------
+    ndarray
+        Points ``p_{-left}, ...`` with ``left, right = reach(mask)``; shape (n + left + right, d)
+        when open, one more when closed.
+
+    Raises
+    ------
+    NoLimitError
+        For an asymmetric mask without a unique limit, whose ends cannot be placed.
+    """
+    left, right = reach(mask)
+    count = len(points)
+    if closed:
+        return points[np.arange(-left, count + right + 1) % count]
+    if count == 1:
+        return np.repeat(points, left + right + 1, axis=0)
+    polygon = points
+    if not mask.is_symmetric:
+        polygon = points.copy()
+        polygon[[0, -1]] = end_points(points, mask)
+    return _reflected(polygon, left, right)
+
+
+def end_points(points: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
+    """Centres ``e_0`` and ``e_{n-1}`` of the odd reflections, shape (2, d), for n >= 2 points.
+
+    They solve the 2 x 2 system "the limit at t = 0 is p_0, at t = n - 1 is p_{n-1}". The system
+    is well conditioned in the useful range (1.38 at (3/10, -3/5, -1/5)); where it is singular, far
+    outside, the end points stay where they are and the curve does not reach them.
+    """
+    left, right = reach(mask)
+    ends = points[[0, -1]]
+    weights = _end_weights(mask)
+    # Only the windows around the two ends matter. A long polygon is replaced by its two end
+    # pieces, which keeps the cost independent of n.
+    near = left + right + 2
+    piece = points if len(points) <= 2 * near else np.concatenate([points[:near], points[-near:]])
+    units = np.zeros((len(piece), 2))
+    units[0, 0] = units[-1, 1] = 1.0
+
+    def limits(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+        endless = _reflected(polygon, left, right)
+        size = len(weights)
+        return np.stack([weights @ endless[:size], weights @ endless[-size:]])
+
+    try:
+        shift = np.linalg.solve(limits(units), ends - limits(piece))
+    except np.linalg.LinAlgError:
+        return ends
+    return ends + shift
+
+
+def _end_weights(mask: Mask) -> NDArray[np.float64]:
+    """Weights of ``p_{i-left}..p_{i+right}`` in the limit point ``C(i)``."""
+    return BasicLimitFunction(mask).table(0)[:-1, 0]
+
+
+def _reflected(polygon: NDArray[np.float64], left: int, right: int) -> NDArray[np.float64]:
+    """Odd reflection about both end points, repeated as often as a short polygon needs it."""
+    return np.pad(polygon, ((left, right), (0, 0)), mode="reflect", reflect_type="odd")

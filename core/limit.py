@@ -1,0 +1,94 @@
+"""The limit curve: exact points at dyadic parameters, by one matrix product."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import ArrayLike, NDArray
+
+from core.basis import BasicLimitFunction
+from core.ends import extended
+from core.mask import Mask
+
+MAX_LEVEL = 20
+"""Finest dyadic level that is tabulated: a million points per span."""
+
+
+class LimitCurve:
+    """The curve to which a control polygon converges under subdivision.
+
+    Parameters
+    ----------
+    points
+        Control points, shape (n, 2), finite; n >= 0. They are copied.
+    mask
+        Mask of a scheme whose rules sum to 1. If it does not converge, `points` gives the finite
+        values of the refinement equation, which grow with the level.
+    closed
+        Closed: t runs through [0, n), indices are taken modulo n. Open: t runs through
+        [0, n - 1], from the first control point to the last, by the end rules of `core.ends`.
+
+    Raises
+    ------
+    ValueError
+        If the points are not an (n, 2) array of finite numbers.
+    NoLimitError
+        If the scheme has no unique limit.
+    """
+
+    def __init__(self, points: ArrayLike, mask: Mask, closed: bool) -> None:
+        polygon = np.array(points, dtype=np.float64)
+        if polygon.size == 0:
+            polygon = polygon.reshape(0, 2)
+        if polygon.ndim != 2 or polygon.shape[1] != 2:
+            raise ValueError(f"control points must have the shape (n, 2), not {polygon.shape}")
+        if not np.isfinite(polygon).all():
+            raise ValueError("control points must be finite")
+        polygon.flags.writeable = False
+        self.control_points = polygon
+        self.mask = mask
+        self.closed = closed
+        self._basis = BasicLimitFunction(mask)
+        self._extended = extended(polygon, mask, closed) if len(polygon) else polygon
+
+    @property
+    def spans(self) -> int:
+        """Number of unit intervals of t: n when closed, n - 1 when open."""
+        count = len(self.control_points)
+        return count if self.closed else max(count - 1, 0)
+
+    def parameters(self, level: int) -> NDArray[np.float64]:
+        """Parameters ``t = k / 2^level`` of the entries of `points`."""
+        count = self.spans * 2**level
+        if not self.closed and len(self.control_points):
+            count += 1
+        return np.arange(count) / 2**level
+
+    def points(self, level: int) -> NDArray[np.float64]:
+        """Exact points of the limit curve at ``t = k / 2^level`` (theory, section 6).
+
+        Parameters
+        ----------
+        level
+            Dyadic level, 0 to `MAX_LEVEL`.
+
+        Returns
+        -------
+        ndarray
+            Shape (n 2^level, 2) closed, ((n - 1) 2^level + 1, 2) open; exact up to rounding, some
+            8 eps times the largest coordinate for convergent schemes.
+        """
+        if not 0 <= level <= MAX_LEVEL:
+            raise ValueError(f"level must lie between 0 and {MAX_LEVEL}, not {level}")
+        polygon = self.control_points
+        if self.spans == 0:
+            return polygon.copy()
+        table = self._basis.table(level)
+        windows = sliding_window_view(self._extended, len(table), axis=0)
+        spans = np.matmul(windows[: self.spans], table)
+        curve = spans.transpose(0, 2, 1).reshape(-1, 2)
+        if self.closed:
+            return np.ascontiguousarray(curve)
+        curve = np.concatenate([curve, polygon[-1:]])
+        curve[0] = polygon[0]
+        return curve

@@ -1,0 +1,201 @@
+"""Masks of binary subdivision schemes, as exact Laurent polynomials."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Stencil:
+    """One refinement or limit rule: the row that makes one new point.
+
+    Attributes
+    ----------
+    start
+        Offset of the first control point, relative to the point that the rule is named after.
+    weights
+        Exact weights of ``p_{i+start}, p_{i+start+1}, ...``.
+    """
+
+    start: int
+    weights: tuple[Fraction, ...]
+
+    @property
+    def offsets(self) -> range:
+        """Offsets ``j`` of the control points ``p_{i+j}`` that the rule reads."""
+        return range(self.start, self.start + len(self.weights))
+
+    def items(self) -> zip[tuple[int, Fraction]]:
+        """Pairs (offset, weight)."""
+        return zip(self.offsets, self.weights, strict=True)
+
+
+@dataclass(frozen=True)
+class Mask:
+    """The mask ``a`` of a binary scheme, ``P_m = sum_j a_{m-2j} p_j`` (paper, eq. 2.1).
+
+    The mask is the column of the scheme: how one old point spreads over the new ones. It is kept
+    trimmed (no zero at either end), so equal schemes have equal masks.
+
+    Parameters
+    ----------
+    start
+        Index of the first coefficient.
+    coefficients
+        Exact coefficients ``a_start, a_{start+1}, ...``; zeros at the ends are trimmed away.
+
+    Notes
+    -----
+    The symbol is ``a(z) = sum_i a_i z^i`` (paper, eq. 2.2). Sums and products of masks are those
+    of their symbols. The zero polynomial is the mask with no coefficients and ``start`` 0.
+    """
+
+    start: int
+    coefficients: tuple[Fraction, ...]
+
+    def __post_init__(self) -> None:
+        first, last = 0, len(self.coefficients)
+        while first < last and self.coefficients[first] == 0:
+            first += 1
+        while last > first and self.coefficients[last - 1] == 0:
+            last -= 1
+        object.__setattr__(self, "start", self.start + first if first < last else 0)
+        object.__setattr__(
+            self, "coefficients", tuple(Fraction(c) for c in self.coefficients[first:last])
+        )
+
+    @classmethod
+    def from_mapping(cls, coefficients: Mapping[int, Fraction]) -> Mask:
+        """Mask with coefficient ``coefficients[i]`` at index ``i`` and zero elsewhere."""
+        if not coefficients:
+            return cls(0, ())
+        first, last = min(coefficients), max(coefficients)
+        zero = Fraction(0)
+        return cls(first, tuple(coefficients.get(i, zero) for i in range(first, last + 1)))
+
+    @classmethod
+    def from_stencils(cls, even: Stencil, odd: Stencil) -> Mask:
+        """Mask of the rules ``P_{2i+r} = sum_j e^r_j p_{i+j}``: ``a_{r-2j} = e^r_j``."""
+        coefficients = {-2 * j: weight for j, weight in even.items()}
+        coefficients.update({1 - 2 * j: weight for j, weight in odd.items()})
+        return cls.from_mapping(coefficients)
+
+    @property
+    def end(self) -> int:
+        """Index of the last coefficient."""
+        return self.start + len(self.coefficients) - 1
+
+    def __getitem__(self, index: int) -> Fraction:
+        """Coefficient ``a_index``, zero outside the support."""
+        position = index - self.start
+        if 0 <= position < len(self.coefficients):
+            return self.coefficients[position]
+        return Fraction(0)
+
+    def items(self) -> enumerate[Fraction]:
+        """Pairs (index, coefficient)."""
+        return enumerate(self.coefficients, self.start)
+
+    @cached_property
+    def values(self) -> NDArray[np.float64]:
+        """The coefficients rounded to floats, read-only."""
+        values = np.array([float(c) for c in self.coefficients])
+        values.flags.writeable = False
+        return values
+
+    def stencil(self, parity: int) -> Stencil:
+        """Rule for the new points ``P_{2i+parity}``: weights ``a_{parity-2j}`` of ``p_{i+j}``."""
+        weights = {
+            (parity - i) // 2: c for i, c in self.items() if (i - parity) % 2 == 0
+        }
+        if not weights:
+            return Stencil(0, ())
+        offsets = range(min(weights), max(weights) + 1)
+        return Stencil(offsets[0], tuple(weights[j] for j in offsets))
+
+    @property
+    def even(self) -> Stencil:
+        """Rule for the new points with even index."""
+        return self.stencil(0)
+
+    @property
+    def odd(self) -> Stencil:
+        """Rule for the new points with odd index."""
+        return self.stencil(1)
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether the mask is its own mirror image, so that mirrored data give a mirrored curve."""
+        return self.coefficients == self.coefficients[::-1]
+
+    def symbol(self, z: Fraction) -> Fraction:
+        """Value of the symbol ``a(z)`` at an exact ``z != 0``."""
+        return sum((c * z**i for i, c in self.items()), Fraction(0))
+
+    def __add__(self, other: Mask) -> Mask:
+        """Sum of the symbols."""
+        total = dict(self.items())
+        for i, c in other.items():
+            total[i] = total.get(i, Fraction(0)) + c
+        return Mask.from_mapping(total)
+
+    def __sub__(self, other: Mask) -> Mask:
+        """Difference of the symbols."""
+        return self + other.scaled(Fraction(-1))
+
+    def __mul__(self, other: Mask) -> Mask:
+        """Product of the symbols (convolution of the masks)."""
+        total: dict[int, Fraction] = {}
+        for i, c in self.items():
+            for j, d in other.items():
+                total[i + j] = total.get(i + j, Fraction(0)) + c * d
+        return Mask.from_mapping(total)
+
+    def scaled(self, factor: Fraction) -> Mask:
+        """The symbol times a number."""
+        return Mask(self.start, tuple(factor * c for c in self.coefficients))
+
+    def shifted(self, places: int) -> Mask:
+        """The symbol times ``z^places``."""
+        return Mask(self.start + places, self.coefficients)
+
+    def alternated(self) -> Mask:
+        """The symbol ``a(-z)``: the odd coefficients change sign."""
+        return Mask.from_mapping({i: -c if i % 2 else c for i, c in self.items()})
+
+    def divided(self, power: int = 1) -> Mask:
+        """Exact quotient of the symbol by ``(1+z)^power``.
+
+        Raises
+        ------
+        ArithmeticError
+            If ``(1+z)^power`` does not divide the symbol.
+        """
+        quotient = self
+        for _ in range(power):
+            remainder = Fraction(0)
+            digits = []
+            for c in quotient.coefficients:
+                remainder = c - remainder
+                digits.append(remainder)
+            if remainder != 0:
+                raise ArithmeticError("1 + z does not divide the symbol")
+            quotient = Mask(quotient.start, tuple(digits[:-1]))
+        return quotient
+
+    def factored(self) -> tuple[int, Mask]:
+        """Split off ``(1+z)``: multiplicity ``m`` and quotient ``a(z) / (1+z)^m``.
+
+        The symbol must not be zero (it would be divisible without end).
+        """
+        multiplicity, quotient = 0, self
+        while quotient.symbol(Fraction(-1)) == 0:
+            quotient = quotient.divided()
+            multiplicity += 1
+        return multiplicity, quotient
