@@ -93,14 +93,9 @@ class BasicLimitFunction:
     @cached_property
     def _float_integer_values(self) -> NDArray[np.float64]:
         """The values of `integer_values` from a floating-point solve, start..end."""
-        mask = self.mask
-        inner = np.arange(mask.start + 1, mask.end)
-        index = 2 * inner[:, None] - inner[None, :] - mask.start
-        inside = (index >= 0) & (index < len(mask.values))
-        matrix = np.where(inside, mask.values[np.clip(index, 0, len(mask.values) - 1)], 0.0)
-        matrix -= np.eye(len(inner))
+        matrix = _digit_matrix(self.mask, 0)[1:-1, 1:-1] - np.eye(len(self.mask.values) - 2)
         matrix[0] = 1.0
-        right = np.zeros(len(inner))
+        right = np.zeros(len(matrix))
         right[0] = 1.0
         try:
             solution = np.linalg.solve(matrix, right)
@@ -145,6 +140,52 @@ class BasicLimitFunction:
             ``C(i + m / 2^level) = sum_r B[r, m] p_{i + r + 1 - end}``.
         """
         return _table(self, level)
+
+    def weights(self, tau: float) -> NDArray[np.float64]:
+        """Weights of the control points in a curve point at any place of a span.
+
+        Parameters
+        ----------
+        tau
+            Place in the span, 0 <= tau < 1; a float is a dyadic number, so the result is exact up
+            to rounding.
+
+        Returns
+        -------
+        ndarray
+            Shape (end - start + 1,): ``C(i + tau) = sum_r w[r] p_{i + r + 1 - end}``, as in `table`.
+
+        Notes
+        -----
+        The vector of all whole shifts, ``Phi(y)_k = phi(y + k)``, obeys
+        ``Phi(y) = T_e Phi(2y - e)``, ``(T_e)_{kl} = a_{2k + e - l}``, with e the first binary digit
+        of y; the digits of a float end after some 53 steps at ``Phi(0)``, the integer values.
+        """
+        y = tau + 0.5
+        shift = int(y >= 1)
+        y -= shift
+        digits = []
+        while y:
+            y *= 2
+            digits.append(int(y >= 1))
+            y -= digits[-1]
+        values = self._float_integer_values
+        for digit in reversed(digits):
+            values = _digit_matrix(self.mask, digit) @ values
+        # Row r holds phi(tau + 1/2 - s), s = r + 1 - end: entry shift - s of Phi, counted from
+        # the start of the support.
+        places = shift - (np.arange(len(values)) + 1 - self.mask.end) - self.mask.start
+        inside = (places >= 0) & (places < len(values))
+        return np.where(inside, values[np.clip(places, 0, len(values) - 1)], 0.0)
+
+
+@cache
+def _digit_matrix(mask: Mask, digit: int) -> NDArray[np.float64]:
+    """Matrix ``a_{2k + digit - l}``, k and l = start..end."""
+    shifts = np.arange(mask.start, mask.end + 1)
+    index = 2 * shifts[:, None] + digit - shifts[None, :] - mask.start
+    inside = (index >= 0) & (index < len(mask.values))
+    return np.where(inside, mask.values[np.clip(index, 0, len(mask.values) - 1)], 0.0)
 
 
 def _solved(rows: list[list[Fraction]], right: list[Fraction]) -> list[Fraction]:

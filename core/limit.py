@@ -49,7 +49,7 @@ class LimitCurve:
         self.mask = mask
         self.closed = closed
         self._basis = BasicLimitFunction(mask)
-        self._extended = extended(polygon, mask, closed) if len(polygon) else polygon
+        self.endless_points = extended(polygon, mask, closed) if len(polygon) else polygon
 
     @property
     def spans(self) -> int:
@@ -78,17 +78,71 @@ class LimitCurve:
             Shape (n 2^level, 2) closed, ((n - 1) 2^level + 1, 2) open; exact up to rounding, some
             8 eps times the largest coordinate for convergent schemes.
         """
-        if not 0 <= level <= MAX_LEVEL:
-            raise ValueError(f"level must lie between 0 and {MAX_LEVEL}, not {level}")
         polygon = self.control_points
         if self.spans == 0:
             return polygon.copy()
-        table = self._basis.table(level)
-        windows = sliding_window_view(self._extended, len(table), axis=0)
-        spans = np.matmul(windows[: self.spans], table)
-        curve = spans.transpose(0, 2, 1).reshape(-1, 2)
+        curve = self.span_points(slice(None), level)[:, :-1].reshape(-1, 2)
         if self.closed:
-            return np.ascontiguousarray(curve)
-        curve = np.concatenate([curve, polygon[-1:]])
-        curve[0] = polygon[0]
-        return curve
+            return curve
+        return np.concatenate([curve, polygon[-1:]])
+
+    def at(self, t: float) -> NDArray[np.float64]:
+        """Exact point of the curve at any parameter, shape (2,).
+
+        Parameters
+        ----------
+        t
+            Closed: any real number, taken modulo n. Open: 0 <= t <= n - 1. The curve must have at
+            least one span.
+        """
+        span, tau = self.span_of(t)
+        weights = self._basis.weights(tau)
+        if tau == 0 and span == self.spans:
+            span, weights = span - 1, np.concatenate([[0.0], weights[:-1]])
+        return weights @ self.endless_points[span : span + len(weights)]
+
+    def span_of(self, t: float) -> tuple[int, float]:
+        """Span i and place tau, 0 <= tau < 1, of a parameter; the end of an open curve is (n-1, 0).
+
+        Raises
+        ------
+        ValueError
+            If the curve is open and t lies beyond its ends.
+        """
+        if self.closed:
+            t %= self.spans
+        elif not 0 <= t <= self.spans:
+            raise ValueError(f"t must lie between 0 and {self.spans}, not {t}")
+        span = int(t)
+        return span % self.spans if self.closed else span, t - span
+
+    def span_points(self, spans: slice | NDArray[np.intp], level: int) -> NDArray[np.float64]:
+        """Exact points of some spans, both ends included.
+
+        Parameters
+        ----------
+        spans
+            Which spans ``[i, i + 1]``: a slice or an array of indices within ``range(self.spans)``.
+        level
+            Dyadic level, 0 to `MAX_LEVEL`.
+
+        Returns
+        -------
+        ndarray
+            Shape (k, 2^level + 1, 2): for each span the points at ``t = i + m / 2^level``. The last
+            point of a span is, up to rounding, the first of the next.
+        """
+        if not 0 <= level <= MAX_LEVEL:
+            raise ValueError(f"level must lie between 0 and {MAX_LEVEL}, not {level}")
+        indices = np.arange(self.spans)[spans]
+        table = self._basis.table(level)
+        windows = sliding_window_view(self.endless_points, len(table), axis=0)
+        points = np.empty((len(indices), 2**level + 1, 2))
+        points[:, :-1] = np.matmul(windows[indices], table).transpose(0, 2, 1)
+        # The end t = i + 1 is read with the window of span i: the first column, one point on.
+        points[:, -1] = windows[indices, :, 1:] @ table[:-1, 0]
+        if not self.closed:
+            # The end rules hold up to rounding; a contour has to end exactly where it was told to.
+            points[indices == 0, 0] = self.control_points[0]
+            points[indices == self.spans - 1, -1] = self.control_points[-1]
+        return points
