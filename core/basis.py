@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,9 @@ from core.mask import Mask, Stencil
 
 HALF = Fraction(1, 2)
 """Shift between the symbol's variable x and the curve parameter: x = t + 1/2 (dual schemes)."""
+
+MEMORY = 128
+"""Number of tables and value arrays kept: a few masks at all levels, while a slider moves."""
 
 _NO_LIMIT = (
     "This scheme has no unique limit curve for these parameters; move a slider a little."
@@ -86,9 +89,7 @@ class BasicLimitFunction:
         first = (t + HALF - self.mask.end).__floor__() + 1
         last = (t + HALF - self.mask.start).__ceil__() - 1
         weights = {j: self.at(t + HALF - j) for j in range(first, last + 1)}
-        nonzero = [j for j, weight in weights.items() if weight != 0]
-        offsets = range(nonzero[0], nonzero[-1] + 1)
-        return Stencil(offsets[0], tuple(weights[j] for j in offsets))
+        return Stencil.from_mapping(weights)
 
     @cached_property
     def _float_integer_values(self) -> NDArray[np.float64]:
@@ -169,9 +170,10 @@ class BasicLimitFunction:
             y *= 2
             digits.append(int(y >= 1))
             y -= digits[-1]
+        matrices = _digit_matrix(self.mask, 0), _digit_matrix(self.mask, 1)
         values = self._float_integer_values
         for digit in reversed(digits):
-            values = _digit_matrix(self.mask, digit) @ values
+            values = matrices[digit] @ values
         # Row r holds phi(tau + 1/2 - s), s = r + 1 - end: entry shift - s of Phi, counted from
         # the start of the support.
         places = shift - (np.arange(len(values)) + 1 - self.mask.end) - self.mask.start
@@ -179,7 +181,7 @@ class BasicLimitFunction:
         return np.where(inside, values[np.clip(places, 0, len(values) - 1)], 0.0)
 
 
-@cache
+@lru_cache(maxsize=MEMORY)
 def _digit_matrix(mask: Mask, digit: int) -> NDArray[np.float64]:
     """Matrix ``a_{2k + digit - l}``, k and l = start..end."""
     shifts = np.arange(mask.start, mask.end + 1)
@@ -207,7 +209,7 @@ def _solved(rows: list[list[Fraction]], right: list[Fraction]) -> list[Fraction]
     return [row[-1] for row in system]
 
 
-@cache
+@lru_cache(maxsize=2**16)
 def _exact_value(phi: BasicLimitFunction, x: Fraction) -> Fraction:
     """Value at a dyadic x by the refinement equation, down to the integers."""
     mask = phi.mask
@@ -218,7 +220,7 @@ def _exact_value(phi: BasicLimitFunction, x: Fraction) -> Fraction:
     return sum((a * _exact_value(phi, 2 * x - i) for i, a in mask.items()), Fraction(0))
 
 
-@cache
+@lru_cache(maxsize=MEMORY)
 def _float_values(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
     """Level by level: ``v[k] at level L+1 = sum_i a_i v[k - (i - start) 2^L] at level L``."""
     if level == 0:
@@ -234,7 +236,7 @@ def _float_values(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
     return values
 
 
-@cache
+@lru_cache(maxsize=MEMORY)
 def _table(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
     """Cut phi, half a span ahead of its support, into spans; the last one is row 0."""
     fine = max(level, 1)

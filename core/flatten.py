@@ -18,14 +18,14 @@ covered by the factor `ROUNDING`.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from core.basis import BasicLimitFunction
+from core.basis import MEMORY, BasicLimitFunction
 from core.errors import NinepointError
 from core.limit import LimitCurve
 from core.mask import Mask
@@ -36,8 +36,11 @@ ROUNDING: Final = 1 + 1e-10
 FINEST_LEVEL: Final = 14
 """Level at which the search gives up: 16,384 chords in a span."""
 
-_SAMPLED_SHARE: Final = 1 / 8
-"""Share of the tolerance that is left to the proven bound between the sampled points."""
+_BOUND_SHARE: Final = 1 / 8
+"""Share of the tolerance that the bound between the sampled points should take."""
+
+_LARGEST_BOUND_SHARE: Final = 1 / 2
+"""Share that it may take where a rough curve does not come down to that at `FINEST_LEVEL`."""
 
 _CHUNK_POINTS: Final = 2**18
 """Number of sampled points held at a time."""
@@ -63,7 +66,7 @@ class Polyline:
     deviation: float
 
 
-@cache
+@lru_cache(maxsize=MEMORY)
 def second_difference_norm(mask: Mask, level: int) -> float:
     """Norm ``rho_level``: how much ``max |D2p|`` can grow in ``level`` refinements, at most.
 
@@ -81,7 +84,7 @@ def second_difference_norm(mask: Mask, level: int) -> float:
     return float(np.abs(padded).reshape(-1, period).sum(axis=0).max()) * ROUNDING
 
 
-@cache
+@lru_cache(maxsize=MEMORY)
 def chord_constant(mask: Mask) -> float:
     """Constant c of the chord bound ``|C - chord| <= c max |D2p|`` over one span.
 
@@ -173,13 +176,15 @@ def _fine_levels(
     bounds = np.full(curve.spans, np.inf)
     for level in range(FINEST_LEVEL + 1):
         bound = constant * second_difference_norm(mask, level) * largest + rounding
-        reached = (levels < 0) & (bound <= _SAMPLED_SHARE * tolerance)
+        share = _BOUND_SHARE if level < FINEST_LEVEL else _LARGEST_BOUND_SHARE
+        reached = (levels < 0) & (bound <= share * tolerance)
         levels[reached] = level
         bounds[reached] = bound[reached]
         if (levels >= 0).all():
             return levels, bounds
     raise NinepointError(
-        f"The tolerance {tolerance:g} mm is too fine for this curve; choose a larger one."
+        f"This curve is too rough to be followed within {tolerance:g} mm;"
+        " choose a larger tolerance, or parameters closer to a preset."
     )
 
 

@@ -26,6 +26,15 @@ class Stencil:
     start: int
     weights: tuple[Fraction, ...]
 
+    @classmethod
+    def from_mapping(cls, weights: Mapping[int, Fraction]) -> Stencil:
+        """Stencil with ``weights[j]`` at offset ``j``; zeros at the ends are trimmed away."""
+        nonzero = [j for j, weight in weights.items() if weight != 0]
+        if not nonzero:
+            return cls(0, ())
+        offsets = range(min(nonzero), max(nonzero) + 1)
+        return cls(offsets[0], tuple(weights.get(j, Fraction(0)) for j in offsets))
+
     @property
     def offsets(self) -> range:
         """Offsets ``j`` of the control points ``p_{i+j}`` that the rule reads."""
@@ -70,6 +79,14 @@ class Mask:
             self, "coefficients", tuple(Fraction(c) for c in self.coefficients[first:last])
         )
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        # Masks are keys of all caches, and hashing a fraction is slow.
+        return hash((self.start, self.coefficients))
+
     @classmethod
     def from_mapping(cls, coefficients: Mapping[int, Fraction]) -> Mask:
         """Mask with coefficient ``coefficients[i]`` at index ``i`` and zero elsewhere."""
@@ -111,13 +128,8 @@ class Mask:
 
     def stencil(self, parity: int) -> Stencil:
         """Rule for the new points ``P_{2i+parity}``: weights ``a_{parity-2j}`` of ``p_{i+j}``."""
-        weights = {
-            (parity - i) // 2: c for i, c in self.items() if (i - parity) % 2 == 0
-        }
-        if not weights:
-            return Stencil(0, ())
-        offsets = range(min(weights), max(weights) + 1)
-        return Stencil(offsets[0], tuple(weights[j] for j in offsets))
+        weights = {(parity - i) // 2: c for i, c in self.items() if (i - parity) % 2 == 0}
+        return Stencil.from_mapping(weights)
 
     @property
     def even(self) -> Stencil:

@@ -1,0 +1,72 @@
+"""Documents are immutable values with admitted coordinates."""
+
+import numpy as np
+import pytest
+
+from core.document import MAX_COORDINATE_MM, MAX_POINTS, Curve, Document
+from core.errors import NinepointError
+from core.family import PRESETS
+
+SQUARE = [(0, 0), (10, 0), (10, 10), (0, 10)]
+
+
+def test_the_points_of_a_curve_cannot_be_written_to():
+    source = np.array(SQUARE, dtype=float)
+    curve = Curve(source)
+    source[0] = 99
+    assert curve.points[0, 0] == 0
+    with pytest.raises(ValueError, match="read-only"):
+        curve.points[0] = 1
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf"), -float("inf"), 1e300])
+def test_coordinates_out_of_reach_are_refused_by_point(bad):
+    with pytest.raises(NinepointError, match="Point 2 of 'wing'"):
+        Curve([(0, 0), (1, bad)], name="wing")
+
+
+def test_the_largest_coordinate_is_admitted():
+    assert Curve([(MAX_COORDINATE_MM, -MAX_COORDINATE_MM)]).points.shape == (1, 2)
+
+
+def test_a_wrong_number_of_coordinates_is_refused():
+    with pytest.raises(NinepointError, match="two coordinates"):
+        Curve([(1, 2, 3)])
+
+
+def test_too_many_points_are_refused():
+    half = Curve(np.zeros((MAX_POINTS // 2 + 1, 2)))
+    with pytest.raises(NinepointError, match="at most"):
+        Document((half, half))
+
+
+def test_edits_make_copies_and_leave_the_original():
+    curve = Curve(SQUARE, closed=False, name="frame")
+    moved = curve.moved([1, 2], [(20, 0), (20, 10)])
+    assert moved.points[1:3].tolist() == [[20, 0], [20, 10]]
+    assert curve.points[1].tolist() == [10, 0]
+    assert curve.inserted(4, (5, 15)).points[-1].tolist() == [5, 15]
+    assert curve.without([0, 3]).points.tolist() == [[10, 0], [10, 10]]
+    assert (moved.name, moved.closed) == ("frame", False)
+
+
+def test_documents_share_what_an_edit_does_not_touch():
+    document = Document((Curve(SQUARE), Curve(SQUARE)))
+    edited = document.with_curve(0, Curve(SQUARE[:3]))
+    assert edited.curves[1] is document.curves[1]
+    assert edited.parameters is document.parameters
+    assert document.with_parameters(PRESETS["Tight"]).curves is document.curves
+    assert document.with_curve_added(document.curves[0]).curves == (*document.curves, document.curves[0])
+    assert document.without_curves({0}).curves == (document.curves[1],)
+
+
+@pytest.mark.parametrize(("n", "closed", "loop"), [(2, True, False), (3, True, True), (3, False, False)])
+def test_a_loop_needs_three_points(n, closed, loop):
+    curve = Curve(SQUARE[:n], closed)
+    assert curve.is_loop is loop
+    assert curve.limit(PRESETS["Calm"]).closed is loop
+
+
+def test_two_points_of_a_closed_curve_are_drawn_as_the_segment_between_them():
+    points = Curve([(0, 0), (8, 4)], closed=True).limit(PRESETS["B-spline"]).points(2)
+    np.testing.assert_allclose(points, [(0, 0), (2, 1), (4, 2), (6, 3), (8, 4)], atol=1e-12)
