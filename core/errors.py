@@ -35,4 +35,4 @@ class FileError(NinepointError):
         self.reason = reason
         self.line = line
         place = "" if line is None else f", line {line}"
-        super().__init__(f"{self.path.name}{place}: {reason}")
+        super().__init__(f"{self.path.name or self.path}{place}: {reason}")

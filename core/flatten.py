@@ -36,6 +36,9 @@ ROUNDING: Final = 1 + 1e-10
 FINEST_LEVEL: Final = 14
 """Level at which the search gives up: 16,384 chords in a span."""
 
+MAX_SAMPLES: Final = 2**26
+"""Largest number of sampled points of a curve: some ten seconds of work."""
+
 _BOUND_SHARE: Final = 1 / 8
 """Share of the tolerance that the bound between the sampled points should take."""
 
@@ -135,13 +138,19 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     Raises
     ------
     NinepointError
-        If the scheme is not seen to converge, or `FINEST_LEVEL` does not reach the tolerance.
+        If the scheme is not seen to converge, or the tolerance needs a level beyond
+        `FINEST_LEVEL` or more than `MAX_SAMPLES` sampled points.
     """
     if not tolerance > 0:
         raise NinepointError(f"The tolerance must be greater than 0, not {tolerance:g}.")
     if curve.spans == 0:
         return Polyline(curve.control_points, closed=False, deviation=0.0)
     fine_levels, bounds = _fine_levels(curve, tolerance)
+    if (2**fine_levels).sum() > MAX_SAMPLES:
+        raise NinepointError(
+            f"{curve.spans:,} spans within {tolerance:g} mm need too many vertices;"
+            " choose a larger tolerance."
+        )
     pieces: dict[int, NDArray[np.float64]] = {}
     deviation = 0.0
     for fine in np.unique(fine_levels):
@@ -153,7 +162,8 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
             steps, distances = _coarsest(sampled, tolerance - bounds[spans])
             deviation = max(deviation, float((distances + bounds[spans]).max()))
             for span, points, step in zip(spans, sampled, steps, strict=True):
-                pieces[int(span)] = points[:-1:step]
+                # A view would keep all samples in memory.
+                pieces[int(span)] = points[:-1:step].copy()
     points = np.concatenate([pieces[span] for span in range(curve.spans)])
     if not curve.closed:
         points = np.concatenate([points, curve.control_points[-1:]])
