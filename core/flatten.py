@@ -36,7 +36,7 @@ ROUNDING: Final = 1 + 1e-10
 FINEST_LEVEL: Final = 14
 """Level at which the search gives up: 16,384 chords in a span."""
 
-MAX_SAMPLES: Final = 2**26
+MAX_SAMPLES: Final = 2**25
 """Largest number of sampled points of a curve: some ten seconds of work."""
 
 _BOUND_SHARE: Final = 1 / 8
