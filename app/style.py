@@ -172,7 +172,7 @@ class Sizes:
     rim_width: float = 1.5
     crowd_spacing: float = 9.0
     ribbon_width: float = 9.0
-    ruler: int = 22
+    ruler: int = 24
     label_spacing: float = 80.0
     minor_spacing: float = 9.0
     fit_margin: float = 56.0

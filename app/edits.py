@@ -1,0 +1,76 @@
+"""What a hand does to a document: pure functions, each with the name that undo shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.handles import EdgeHit
+from core.document import MAX_COORDINATE_MM, Curve, Document
+
+
+def counted(verb: str, count: int) -> str:
+    """Name of an edit: "Move point", "Move 3 points"."""
+    return f"{verb} point" if count == 1 else f"{verb} {count} points"
+
+
+def by_curve(points: Iterable[tuple[int, int]]) -> dict[int, list[int]]:
+    """Sorted point indices of each curve that has some among the pairs (curve, point)."""
+    grouped: dict[int, list[int]] = {}
+    for curve, point in sorted(points):
+        grouped.setdefault(curve, []).append(point)
+    return grouped
+
+
+def moved(
+    document: Document, points: Iterable[tuple[int, int]], delta_mm: ArrayLike
+) -> Document:
+    """Document with some points shifted by ``delta_mm`` (2,); they stop at the admitted edge."""
+    shift = np.asarray(delta_mm, dtype=np.float64)
+    for index, members in by_curve(points).items():
+        curve = document.curves[index]
+        places = np.clip(curve.points[members] + shift, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
+        document = document.with_curve(index, curve.moved(members, places))
+    return document
+
+
+def with_points(document: Document, index: int, points_mm: ArrayLike) -> Document:
+    """Document with other control points in one curve; at the admitted edge they stop."""
+    curve = document.curves[index]
+    places = np.clip(points_mm, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
+    return document.with_curve(index, replace(curve, points=places))
+
+
+def without_points(document: Document, points: Iterable[tuple[int, int]]) -> Document:
+    """Document without some points; a curve that has none left goes with them."""
+    grouped = by_curve(points)
+    emptied = set()
+    for index, members in grouped.items():
+        curve = document.curves[index].without(members)
+        document = document.with_curve(index, curve)
+        if not len(curve.points):
+            emptied.add(index)
+    return document.without_curves(emptied) if emptied else document
+
+
+def with_point_on_edge(document: Document, hit: EdgeHit) -> tuple[Document, tuple[int, int]]:
+    """Document with a new point on an edge of a polygon, and the pair (curve, point) it has."""
+    curve = document.curves[hit.curve]
+    start = curve.points[hit.edge]
+    end = curve.points[(hit.edge + 1) % len(curve.points)]
+    place = start + hit.share * (end - start)
+    new = hit.edge + 1
+    return document.with_curve(hit.curve, curve.inserted(new, place)), (hit.curve, new)
+
+
+def with_new_curve(document: Document, points_mm: ArrayLike, closed: bool) -> Document:
+    """Document with one more curve, named by its number."""
+    names = {curve.name for curve in document.curves}
+    number = len(document.curves) + 1
+    while f"Curve {number}" in names:
+        number += 1
+    places = np.clip(points_mm, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
+    return document.with_curve_added(Curve(places, closed, f"Curve {number}"))

@@ -1,0 +1,185 @@
+"""What lies under the mouse: hit tests in pixels, and what they mean in the drawing.
+
+Everything here is a pure function of arrays; pixels have y down. Among things at equal distance
+the one that is drawn last, on top, is taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+DYADIC: Final = 2**10
+"""Places on a span that a curve is grabbed at: t is a multiple of 1/1024."""
+
+
+@dataclass(frozen=True)
+class PointHit:
+    """A control point near the mouse."""
+
+    curve: int
+    point: int
+    distance_px: float
+
+    @property
+    def key(self) -> tuple[int, int]:
+        """The pair that a selection holds."""
+        return self.curve, self.point
+
+
+@dataclass(frozen=True)
+class EdgeHit:
+    """A place on the control polygon: ``share`` of the way from point ``edge`` to the next."""
+
+    curve: int
+    edge: int
+    share: float
+    distance_px: float
+
+
+@dataclass(frozen=True)
+class CurveHit:
+    """A place on a limit curve, at the parameter ``t``."""
+
+    curve: int
+    t: float
+    distance_px: float
+
+
+def nearest_point(
+    polygons_px: Sequence[NDArray[np.float64]],
+    pos_px: NDArray[np.float64],
+    radius_px: float,
+    preferred: int = -1,
+) -> PointHit | None:
+    """Nearest control point within a radius.
+
+    Parameters
+    ----------
+    polygons_px
+        Control points of each curve, shape (n, 2).
+    pos_px
+        The mouse, shape (2,).
+    radius_px
+        Farthest admitted distance.
+    preferred
+        Curve that wins when points of several curves lie at the same place.
+    """
+    best: PointHit | None = None
+    for curve in _order(len(polygons_px), preferred):
+        points = polygons_px[curve]
+        if not len(points):
+            continue
+        # The last of equals: points are drawn in order, so it lies on top.
+        squares = ((points - pos_px) ** 2).sum(axis=1)[::-1]
+        index = len(points) - 1 - int(squares.argmin())
+        distance = float(np.sqrt(squares.min()))
+        if distance <= radius_px and (best is None or distance < best.distance_px):
+            best = PointHit(curve, index, distance)
+    return best
+
+
+def nearest_edge(
+    polygons_px: Sequence[NDArray[np.float64]],
+    loops: Sequence[bool],
+    pos_px: NDArray[np.float64],
+    radius_px: float,
+    preferred: int = -1,
+) -> EdgeHit | None:
+    """Nearest place on the control polygons within a radius; ``loops`` says which are closed."""
+    best: EdgeHit | None = None
+    for curve in _order(len(polygons_px), preferred):
+        found = _nearest_on(polygons_px[curve], loops[curve], pos_px)
+        if found is None or found[2] > radius_px:
+            continue
+        if best is None or found[2] < best.distance_px:
+            best = EdgeHit(curve, *found)
+    return best
+
+
+def nearest_on_curve(
+    curves_px: Sequence[NDArray[np.float64]],
+    parameters: Sequence[NDArray[np.float64]],
+    spans: Sequence[int],
+    loops: Sequence[bool],
+    pos_px: NDArray[np.float64],
+    radius_px: float,
+    preferred: int = -1,
+) -> CurveHit | None:
+    """Nearest place on the drawn limit curves within a radius.
+
+    Parameters
+    ----------
+    curves_px, parameters
+        Drawn vertices of each curve, shape (k, 2), and their t, shape (k,).
+    spans, loops
+        Number of spans of each curve, and whether it is closed.
+    pos_px, radius_px, preferred
+        As in `nearest_point`.
+
+    Returns
+    -------
+    CurveHit or None
+        Its t is linear between the vertices, rounded to a multiple of 1/1024.
+    """
+    best: CurveHit | None = None
+    for curve in _order(len(curves_px), preferred):
+        found = _nearest_on(curves_px[curve], loops[curve], pos_px)
+        if found is None or found[2] > radius_px:
+            continue
+        edge, share, distance = found
+        if best is None or distance < best.distance_px:
+            t, total = parameters[curve], spans[curve]
+            after = float(t[edge + 1]) if edge + 1 < len(t) else float(total)
+            place = float(t[edge]) + share * (after - float(t[edge]))
+            dyadic = round(place * DYADIC) / DYADIC
+            best = CurveHit(curve, dyadic % total if loops[curve] else dyadic, distance)
+    return best
+
+
+def points_within(
+    polygons_px: Sequence[NDArray[np.float64]],
+    corner_px: NDArray[np.float64],
+    opposite_px: NDArray[np.float64],
+) -> frozenset[tuple[int, int]]:
+    """Pairs (curve, point) of the control points in a rectangle given by two opposite corners."""
+    low, high = np.minimum(corner_px, opposite_px), np.maximum(corner_px, opposite_px)
+    return frozenset(
+        (curve, int(point))
+        for curve, points in enumerate(polygons_px)
+        for point in np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
+    )
+
+
+def _order(count: int, preferred: int) -> list[int]:
+    """Curves from the top down, the preferred one before all."""
+    order = list(range(count - 1, -1, -1))
+    if 0 <= preferred < count:
+        order.remove(preferred)
+        order.insert(0, preferred)
+    return order
+
+
+def _nearest_on(
+    vertices: NDArray[np.float64], closed: bool, pos: NDArray[np.float64]
+) -> tuple[int, float, float] | None:
+    """Segment, share of it and distance of the place on a polyline that is nearest."""
+    if len(vertices) < 2:
+        return None
+    ends = np.roll(vertices, -1, axis=0) if closed else vertices[1:]
+    starts = vertices if closed else vertices[:-1]
+    way, away = ends - starts, pos - starts
+    # Far out of view the squares may overflow; such segments are at an infinite distance.
+    with np.errstate(over="ignore", invalid="ignore"):
+        length = (way**2).sum(axis=1)
+        along = (way * away).sum(axis=1)
+        share = np.divide(along, length, out=np.zeros_like(along), where=length > 0)
+        share = np.clip(np.nan_to_num(share), 0.0, 1.0)
+        squares = ((away - share[:, None] * way) ** 2).sum(axis=1)
+    squares = np.nan_to_num(squares, nan=np.inf)
+    index = int(squares.argmin())
+    return index, float(share[index]), float(np.sqrt(squares[index]))

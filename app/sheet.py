@@ -1,0 +1,256 @@
+"""The sheet: a widget that shows a session's document, draws once per turn, and can be zoomed."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, QTimer, Signal
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
+from PySide6.QtWidgets import QWidget
+
+from app.camera import Camera
+from app.grid import Background
+from app.guard import guarded
+from app.picture import HINT_ROOM_PX, paint_cursor_marks, paint_hint, paint_scene
+from app.scene import NOTHING, Overlay, Scene
+from app.session import Selection, Session
+from app.style import SIZES, color, palette_of
+from core.document import Document
+
+FIRST_HINT: Final = "Drag a dot. Or pull the curve itself."
+"""Shown on the sheet until the first edit."""
+
+EMPTY_HINT: Final = "Press P, then click to place the points of a curve."
+"""Shown on a sheet without curves."""
+
+NO_LIMIT_HINT: Final = (
+    "These parameters have no limit curve; only the polygon is drawn. Move a slider a little."
+)
+"""Shown when the scheme has no limit."""
+
+MM_PER_INCH: Final = 25.4
+
+SMALL_MARGIN: Final = 0.12
+"""Largest share of a small sheet that the margin of a fitted drawing takes on each side."""
+
+
+class Sheet(QWidget):
+    """Shows the document of a session: grid, rulers, curves, and what a hand adds.
+
+    Everything that is drawn is computed before painting, once for all events that wait.
+
+    Parameters
+    ----------
+    session
+        What is shown.
+    parent
+        The widget that holds it.
+
+    Signals
+    -------
+    zoom_changed(float)
+        The scale in logical pixels per millimetre.
+    """
+
+    zoom_changed = Signal(float)
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.session = session
+        self._camera = Camera()
+        self._is_fitted = True
+        self._scene = Scene()
+        self._background = Background()
+        self._paper = QPixmap()
+        self._is_stale = True
+        self._shown_overlay: Overlay = NOTHING
+        self._show_polygon = self._show_grid = True
+        self._first_document = session.document
+        self._is_taught = session.undo_name is not None
+        self._mouse: QPointF | None = None
+        self._redraw = QTimer(self)
+        self._redraw.setSingleShot(True)
+        self._redraw.setInterval(0)
+        self._redraw.timeout.connect(self._draw)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setMinimumSize(160, 120)
+        session.changed.connect(self._on_changed)
+        session.selection_changed.connect(self._on_selection_changed)
+        session.status_changed.connect(self.refresh)
+
+    @property
+    def camera(self) -> Camera:
+        """The view."""
+        return self._camera
+
+    @property
+    def scene(self) -> Scene:
+        """What is drawn, up to date."""
+        self._settle()
+        return self._scene
+
+    @property
+    def overlay(self) -> Overlay:
+        """What the hand adds to the picture."""
+        return NOTHING
+
+    @property
+    def show_polygon(self) -> bool:
+        """Whether control polygons and points are shown, and can be taken; the curve always can."""
+        return self._show_polygon
+
+    @show_polygon.setter
+    def show_polygon(self, shown: bool) -> None:
+        self._show_polygon = shown
+        self.refresh()
+
+    @property
+    def show_grid(self) -> bool:
+        """Whether the grid is shown."""
+        return self._show_grid
+
+    @show_grid.setter
+    def show_grid(self, shown: bool) -> None:
+        self._show_grid = shown
+        self.refresh()
+
+    def look(self, camera: Camera) -> None:
+        """Change the view."""
+        old, self._camera = self._camera, camera
+        self._is_fitted = False
+        if old.scale != camera.scale:
+            self.zoom_changed.emit(camera.scale)
+        if old != camera:
+            self.refresh()
+
+    def fit_all(self) -> None:
+        """Show the whole drawing as large as it fits."""
+        curves = self.session.document.curves
+        self._fit(np.concatenate([np.zeros((0, 2)), *(curve.points for curve in curves)]))
+        self._is_fitted = True
+
+    def fit_selection(self) -> None:
+        """Show the selected points as large as they fit; without any, the whole drawing."""
+        curves = self.session.document.curves
+        points = sorted(self.session.selection.points)
+        if points:
+            self._fit(np.array([curves[curve].points[point] for curve, point in points]))
+        else:
+            self.fit_all()
+
+    def zoom_by(self, factor: float) -> None:
+        """Zoom about the middle of the sheet."""
+        self.look(self._camera.zoomed(factor, place_px(self._content().center())))
+
+    def zoom_real_size(self) -> None:
+        """Show a millimetre as a millimetre, as far as the screen tells its resolution."""
+        self.zoom_by(self.logicalDpiX() / MM_PER_INCH / self._camera.scale)
+
+    def refresh(self) -> None:
+        """Draw anew, once, when the events that wait have been dealt with."""
+        self._is_stale = True
+        if not self._redraw.isActive():
+            self._redraw.start()
+
+    def mark_mouse(self, position: QPointF | None) -> None:
+        """Mark a place on the rulers, or none."""
+        self._mouse = position
+        breadth = SIZES.ruler
+        self.update(QRect(0, 0, self.width(), breadth))
+        self.update(QRect(0, 0, breadth, self.height()))
+
+    @guarded
+    def paintEvent(self, event: QPaintEvent) -> None:
+        self._settle()
+        palette, content = palette_of(self), self._content()
+        selection = self.session.selection
+        with QPainter(self) as painter:
+            painter.drawPixmap(0, 0, self._paper)
+            if event.region().intersects(content.toRect()):
+                painter.setClipRect(content)
+                paint_scene(
+                    painter, self._scene, palette, content, selection.curve, selection.points,
+                    self._shown_overlay, self._show_polygon,
+                )  # fmt: skip
+                if words := self.words():
+                    paint_hint(painter, words, palette, content)
+                painter.setClipping(False)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+            if self._mouse is not None:
+                paint_cursor_marks(painter, palette, self._mouse)
+            if self.hasFocus():
+                painter.setPen(QPen(color(palette.accent), 1.0))
+                painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+
+    @guarded
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        fitted = self._is_fitted
+        self.look(self._camera.resized(self.width(), self.height()))
+        if fitted:
+            self.fit_all()
+
+    @guarded
+    def changeEvent(self, event: QEvent) -> None:
+        super().changeEvent(event)
+        self.refresh()
+
+    def words(self) -> str:
+        """Return the words shown on the sheet, or ""."""
+        if not self.session.document.curves:
+            return "" if self.overlay.preview is not None else EMPTY_HINT
+        if not self._scene.has_limit:
+            return NO_LIMIT_HINT
+        return "" if self._is_taught else FIRST_HINT
+
+    def document_replaced(self) -> None:
+        """Take note that another document is shown (New, Open)."""
+        self.fit_all()
+
+    def _content(self) -> QRectF:
+        """Return the sheet without its rulers."""
+        return QRectF(self.rect()).adjusted(SIZES.ruler, SIZES.ruler, 0, 0)
+
+    def _fit(self, points_mm: NDArray[np.float64]) -> None:
+        margin = min(SIZES.fit_margin, SMALL_MARGIN * min(self.width(), self.height()))
+        near = SIZES.ruler + margin
+        below = margin + (HINT_ROOM_PX if self.words() else 0.0)
+        self.look(self._camera.fitted(points_mm, (near, near, margin, below)))
+
+    def _settle(self) -> None:
+        """Compute what is to be drawn, if anything has changed."""
+        ratio = self.devicePixelRatioF()
+        self._paper = self._background.pixmap(
+            self._camera, palette_of(self), ratio, self.font(), self._show_grid
+        )
+        if self._is_stale:
+            self._is_stale = False
+            session = self.session
+            self._shown_overlay = self.overlay
+            self._scene.update(
+                session.document, session.origin, self._camera, ratio, self._shown_overlay
+            )
+
+    def _draw(self) -> None:
+        self._settle()
+        self.update()
+
+    def _on_changed(self, old: Document, new: Document) -> None:
+        # The first state of a history has no name. Undo and cancel lead back to the document that
+        # is known; another one there means another history.
+        if self.session.undo_name is not None:
+            self._is_taught = True
+        elif new is not self._first_document:
+            self._first_document = new
+            self.document_replaced()
+        if old.curves is not new.curves or old.parameters is not new.parameters:
+            self.refresh()
+
+    def _on_selection_changed(self, old: Selection, new: Selection) -> None:
+        self.refresh()
+
+
+def place_px(point: QPointF) -> NDArray[np.float64]:
+    """Pixels of a Qt point, shape (2,)."""
+    return np.array([point.x(), point.y()])
