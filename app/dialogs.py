@@ -1,0 +1,127 @@
+"""The questions that the program asks in windows of their own; tests answer in their place."""
+
+from __future__ import annotations
+
+from enum import Enum
+from importlib import metadata
+from pathlib import Path
+
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+
+DOCUMENT_SUFFIX = ".ninepoint"
+"""Suffix of Ninepoint's own files."""
+
+OPEN_FILTERS = (
+    "Drawings and points (*.ninepoint *.csv *.tsv *.txt *.dat)"
+    ";;Ninepoint drawings (*.ninepoint);;Points (*.csv *.tsv *.txt *.dat);;All files (*)"
+)
+ABOUT_ICON_PX = 64
+SAVE_FILTERS = "Ninepoint drawings (*.ninepoint)"
+
+
+class Answer(Enum):
+    """What shall happen to changes that are not saved."""
+
+    SAVE = "save"
+    DISCARD = "discard"
+    CANCEL = "cancel"
+
+
+class Dialogs:
+    """File choosers, questions and error messages over a window.
+
+    Parameters
+    ----------
+    parent
+        The window that they belong to.
+    """
+
+    def __init__(self, parent: QWidget) -> None:
+        self._parent = parent
+
+    def path_to_open(self, folder: Path) -> Path | None:
+        """Let the user choose a file to open, or None."""
+        chosen, _ = QFileDialog.getOpenFileName(self._parent, "Open", str(folder), OPEN_FILTERS)
+        return Path(chosen) if chosen else None
+
+    def path_to_save(self, suggestion: Path) -> Path | None:
+        """Let the user choose the name of a drawing, or None; it ends in the right suffix."""
+        return self._new_path("Save as", suggestion, SAVE_FILTERS)
+
+    def path_to_export(self, suggestion: Path, kind: str) -> Path | None:
+        """Let the user choose the name of an exported file, or None.
+
+        Parameters
+        ----------
+        suggestion
+            Folder and name proposed; its suffix is kept.
+        kind
+            What such files are called: "SVG".
+        """
+        return self._new_path("Export", suggestion, f"{kind} (*{suggestion.suffix})")
+
+    def _new_path(self, title: str, suggestion: Path, filters: str) -> Path | None:
+        # The dialog adds the suffix itself, so its question before overwriting names the very
+        # file that will be written.
+        dialog = QFileDialog(self._parent, title, str(suggestion.parent), filters)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(suggestion.suffix.removeprefix("."))
+        dialog.selectFile(suggestion.name)
+        accepted = dialog.exec()
+        files = dialog.selectedFiles()
+        dialog.deleteLater()
+        return Path(files[0]) if accepted and files else None
+
+    def unsaved(self, title: str) -> Answer:
+        """Ask what shall happen to the changes of the drawing called ``title``."""
+        box = QMessageBox(
+            QMessageBox.Icon.Warning,
+            "Unsaved changes",
+            f"Save the changes to \u201c{title}\u201d?",
+            QMessageBox.StandardButton.Save
+            | QMessageBox.StandardButton.Discard
+            | QMessageBox.StandardButton.Cancel,
+            self._parent,
+        )
+        box.setInformativeText("They are lost if you discard them.")
+        box.setDefaultButton(QMessageBox.StandardButton.Save)
+        box.setEscapeButton(QMessageBox.StandardButton.Cancel)
+        chosen = box.exec()
+        box.deleteLater()
+        if chosen == QMessageBox.StandardButton.Save:
+            return Answer.SAVE
+        return Answer.DISCARD if chosen == QMessageBox.StandardButton.Discard else Answer.CANCEL
+
+    def error(self, title: str, sentence: str) -> None:
+        """Show what went wrong; returns at once."""
+        box = QMessageBox(
+            QMessageBox.Icon.Warning,
+            title,
+            sentence,
+            QMessageBox.StandardButton.Ok,
+            self._parent,
+        )
+        box.open()
+        box.finished.connect(box.deleteLater)
+
+    def about(self) -> None:
+        """Show name, version and licence; returns at once."""
+        box = QMessageBox(self._parent)
+        box.setWindowTitle("About Ninepoint")
+        box.setIconPixmap(QGuiApplication.windowIcon().pixmap(ABOUT_ICON_PX))
+        box.setText(f"<b>Ninepoint</b> {program_version()}")
+        box.setInformativeText(
+            "Curves by a three-parameter nine-point subdivision scheme: exact limit curves,"
+            " shaped by three sliders. Free software, MIT licence."
+        )
+        box.open()
+        box.finished.connect(box.deleteLater)
+
+
+def program_version() -> str:
+    """Version of the installed program; "" in a checkout that was never installed."""
+    try:
+        return metadata.version("ninepoint")
+    except metadata.PackageNotFoundError:
+        return ""

@@ -1,0 +1,120 @@
+"""The panels around the canvas: where they stand at first, and the plots that come later."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDockWidget, QFrame, QMainWindow, QSplitter, QVBoxLayout, QWidget
+
+if TYPE_CHECKING:
+    from app.plots import BasisPlot, StepPlot
+    from app.session import Session
+
+SIDE_PX: Final = 300
+"""Breadth of the panels on the right: sliders fine enough to set hundredths."""
+
+PLOTS_PX: Final = 200
+"""Height of the plots: the curve stays the largest thing in the window."""
+
+SCHEME_PX: Final = 236
+"""Height of the scheme panel: all of it, with some air."""
+
+LISTS_PX: Final = 510
+"""Height of the lists: what is left of the right side at 1280 x 800."""
+
+CURVES_PX: Final = 92
+"""Height of the list of curves: four rows; the points take the rest."""
+
+Area = Qt.DockWidgetArea
+
+
+class Docks:
+    """The docks of a window.
+
+    Parameters
+    ----------
+    window
+        The window that they belong to.
+    scheme, curves, points
+        What the panels on the right hold.
+    """
+
+    def __init__(
+        self, window: QMainWindow, scheme: QWidget, curves: QWidget, points: QWidget
+    ) -> None:
+        self._window = window
+        self.scheme = self._dock("Scheme", scheme)
+        self.lists = self._dock("Curves and points", _stacked(curves, points))
+        self.basis = self._dock("Basis function", _waiting())
+        self.step = self._dock("Step response", _waiting())
+        self.basis_plot: BasisPlot | None = None
+        self.step_plot: StepPlot | None = None
+        window.setDockNestingEnabled(True)
+        window.setCorner(Qt.Corner.BottomRightCorner, Area.RightDockWidgetArea)
+        window.setCorner(Qt.Corner.BottomLeftCorner, Area.BottomDockWidgetArea)
+        window.addDockWidget(Area.RightDockWidgetArea, self.scheme)
+        window.addDockWidget(Area.RightDockWidgetArea, self.lists)
+        window.addDockWidget(Area.BottomDockWidgetArea, self.basis)
+        window.splitDockWidget(self.basis, self.step, Qt.Orientation.Horizontal)
+
+    @property
+    def all(self) -> tuple[QDockWidget, ...]:
+        """The docks, in the order of the View menu."""
+        return (self.scheme, self.lists, self.basis, self.step)
+
+    def size(self) -> None:
+        """Give the docks their first sizes; to be called once the window has its own."""
+        window = self._window
+        window.resizeDocks([self.scheme], [SIDE_PX], Qt.Orientation.Horizontal)
+        window.resizeDocks(
+            [self.scheme, self.lists], [SCHEME_PX, LISTS_PX], Qt.Orientation.Vertical
+        )
+        window.resizeDocks([self.basis], [PLOTS_PX], Qt.Orientation.Vertical)
+        half = max((window.width() - SIDE_PX) // 2, 1)
+        window.resizeDocks([self.basis, self.step], [half, half], Qt.Orientation.Horizontal)
+
+    def plot(self, session: Session) -> None:
+        """Load pyqtgraph and put the plots where they belong; takes a third of a second."""
+        from app.plots import BasisPlot, StepPlot
+
+        self.basis_plot, self.step_plot = BasisPlot(session), StepPlot(session)
+        for dock, plot in ((self.basis, self.basis_plot), (self.step, self.step_plot)):
+            waiting = dock.widget()
+            dock.setWidget(_framed(plot))
+            waiting.deleteLater()
+
+    def _dock(self, title: str, content: QWidget) -> QDockWidget:
+        dock = QDockWidget(title, self._window)
+        dock.setObjectName(title)
+        dock.setAccessibleName(title)
+        dock.setWidget(content)
+        return dock
+
+
+def _stacked(curves: QWidget, points: QWidget) -> QSplitter:
+    """The list of curves above the table of their points."""
+    splitter = QSplitter(Qt.Orientation.Vertical)
+    splitter.addWidget(curves)
+    splitter.addWidget(points)
+    splitter.setChildrenCollapsible(False)
+    splitter.setStretchFactor(1, 1)
+    splitter.setSizes([CURVES_PX, LISTS_PX - CURVES_PX])
+    return splitter
+
+
+def _waiting() -> QWidget:
+    """What stands in a plot's place until pyqtgraph is loaded: its ground, as high as it."""
+    ground = QFrame()
+    ground.setAutoFillBackground(True)
+    ground.setBackgroundRole(ground.palette().ColorRole.Base)
+    return _framed(ground)
+
+
+def _framed(content: QWidget) -> QWidget:
+    content.setMinimumSize(160, 90)
+    frame = QWidget()
+    layout = QVBoxLayout(frame)
+    layout.setContentsMargins(0, 0, 0, 0)
+    layout.addWidget(content)
+    return frame

@@ -1,0 +1,270 @@
+"""The analysis plots: basic limit function and step response.
+
+This module imports pyqtgraph, which takes longer to load than the rest of the program together;
+the window imports it after its first paint.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import pyqtgraph as pg
+from numpy.typing import NDArray
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QFont, QWheelEvent
+from PySide6.QtWidgets import QWidget
+
+from app.guard import guarded
+from app.session import Session
+from app.style import Palette, palette_of
+from core.basis import BasicLimitFunction
+from core.document import Document
+from core.errors import NoLimitError
+from core.family import Parameters
+from core.gibbs import StepResponse
+
+LEVEL: Final = 5
+"""Dyadic level of the drawn functions: 32 points per span, some 10 pixels each at most."""
+
+HALF_WIDTH: Final = 9.5
+"""The plots show t from -9.5 to 9.5: the widest support, 17, with a margin."""
+
+BASIS_RANGE: Final = (-0.25, 1.3)
+"""What is seen of phi at least; every preset fits, so that their heights can be compared."""
+
+STEP_RANGE: Final = (-0.25, 1.35)
+"""The same for the step response, with room for the words above it."""
+
+RANGE_STEP: Final = 0.25
+"""Beyond that, the range grows in such steps, so that it does not tremble under the sliders."""
+
+BOTTOM_MARGIN: Final = 0.06
+"""Room below the curve for the mark at its lowest point."""
+
+TOP_MARGIN: Final = 0.22
+"""Room above the curve for the words."""
+
+COARSE_RANGE: Final = 3.0
+"""Ranges above this are labelled in steps of 2 instead of 1/2, so that labels never touch."""
+
+WIDEST: Final = 4.0
+"""Largest value that the range grows to; a function that runs away is cut off there."""
+
+LEAST_PEAK: Final = 1e-6
+"""Overshoot below this is not marked: it could not be seen, nor told from the sampling."""
+
+CURVE_PX: Final = 1.5
+"""Width of the plotted line: wider ones cost many times more to draw."""
+
+
+class AnalysisPlot(pg.PlotWidget):
+    """A small plot over t that only shows: no mouse, no menu, no grid, fixed axes.
+
+    Subclasses say what is drawn in `draw` and how it is coloured in `paint_with`.
+
+    Parameters
+    ----------
+    session
+        The document whose parameters are shown.
+    name
+        What the plot is called to screen readers.
+    least
+        The range of values that is always seen.
+    """
+
+    def __init__(
+        self, session: Session, name: str, least: tuple[float, float], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._least = least
+        self.setAccessibleName(name)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        item = self.getPlotItem()
+        item.hideButtons()
+        item.setMenuEnabled(False)
+        item.setMouseEnabled(False, False)
+        item.getAxis("bottom").setTicks([[(t, _tick(t)) for t in range(-8, 9, 4)]])
+        item.getAxis("left").setWidth(30)
+        item.getAxis("bottom").setHeight(22)
+        for side in ("bottom", "left"):
+            item.getAxis(side).setStyle(tickLength=-4, tickTextOffset=4)
+        item.setContentsMargins(2, 6, 8, 2)
+        item.setXRange(-HALF_WIDTH, HALF_WIDTH, padding=0)
+        self.zero = pg.InfiniteLine(0.0, angle=0)
+        self.curve = pg.PlotCurveItem(antialias=True)
+        self.note = pg.TextItem(anchor=(0.5, 0.0))
+        for part in (self.zero, self.curve, self.note):
+            item.addItem(part, ignoreBounds=True)
+        self._parts: tuple[pg.GraphicsObject, ...] = (self.zero, self.curve)
+        self._build(item)
+        session.changed.connect(self._on_changed)
+        self._colour()
+        self.show_parameters(session.document.parameters)
+
+    def _build(self, item: pg.PlotItem) -> None:
+        """Add what the plot draws besides the curve."""
+
+    def draw(self, parameters: Parameters) -> str:
+        """Put the function into the items; return the words on the plot.
+
+        Raises
+        ------
+        NoLimitError
+            If the scheme has none; the plot is then cleared and says so.
+        """
+        raise NotImplementedError
+
+    def paint_with(self, colours: Palette) -> None:
+        """Colour what `_build` added."""
+
+    @property
+    def sentence(self) -> str:
+        """The words on the plot."""
+        return str(self.note.toPlainText())
+
+    def show_parameters(self, parameters: Parameters) -> None:
+        """Draw the function of other parameters, or say why there is none."""
+        try:
+            sentence = self.draw(parameters)
+            found = True
+        except NoLimitError as error:
+            sentence, found = str(error), False
+            self.curve.setData([], [])
+        for part in self._parts:
+            part.setVisible(found)
+        self.note.setText(sentence)
+        self.setAccessibleDescription(sentence)
+        self.note.setTextWidth(-1 if found else self.width() * 0.7)
+        self._place_note()
+
+    def _show_curve(self, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+        seen = np.clip(np.nan_to_num(values), -WIDEST, WIDEST)
+        self.curve.setData(t, seen, connect="all")
+        low, high = self._least
+        low -= _grown(low + BOTTOM_MARGIN - seen.min())
+        high += _grown(seen.max() - (high - TOP_MARGIN))
+        item = self.getPlotItem()
+        item.setYRange(low, high, padding=0)
+        ticks = (-2, 0, 2, 4) if high - low > COARSE_RANGE else (0, 0.5, 1)
+        item.getAxis("left").setTicks([[(v, _tick(v)) for v in ticks if low <= v <= high]])
+
+    def _place_note(self) -> None:
+        _, (_, top) = self.getPlotItem().viewRange()
+        self.note.setPos(QPointF(0.0, top))
+
+    def _on_changed(self, old: Document, new: Document) -> None:
+        if old.parameters is not new.parameters:
+            self.show_parameters(new.parameters)
+
+    def _colour(self) -> None:
+        colours = palette_of(self)
+        self.setBackground(colours.plot_background)
+        font = QFont(self.font())
+        font.setPointSizeF(max(font.pointSizeF() - 1, 1.0))
+        for side in ("bottom", "left"):
+            axis = self.getPlotItem().getAxis(side)
+            axis.setPen(pg.mkPen(colours.plot_grid))
+            axis.setTextPen(pg.mkPen(colours.muted_text))
+            axis.setTickFont(font)
+        self.zero.setPen(pg.mkPen(colours.axis))
+        self.curve.setPen(pg.mkPen(colours.plot_curve, width=CURVE_PX))
+        self.note.setColor(colours.text)
+        self.note.setFont(font)
+        self.paint_with(colours)
+
+    @guarded
+    def changeEvent(self, event: QEvent) -> None:
+        """Take over the colours of another scheme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "note"):
+            self._colour()
+
+    @guarded
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Leave the wheel to whatever scrolls around the plot."""
+        event.ignore()
+
+
+class BasisPlot(AnalysisPlot):
+    """The basic limit function: how far, and how strongly, one control point acts."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(session, "Basic limit function", BASIS_RANGE, parent)
+
+    def _build(self, item: pg.PlotItem) -> None:
+        self.support = pg.LinearRegionItem(movable=False)
+        self.support.setZValue(-10)
+        item.addItem(self.support, ignoreBounds=True)
+        self._parts = (*self._parts, self.support)
+
+    def draw(self, parameters: Parameters) -> str:
+        """Plot phi(t), its support shaded; the words name the support."""
+        phi = BasicLimitFunction(parameters.mask)
+        values = phi.values(LEVEL)
+        self._show_curve(phi.parameters(LEVEL), values)
+        left, right = phi.support
+        self.support.setRegion((float(left), float(right)))
+        return f"\u03c6(t) \u00b7 support {_tick(left)} \u2026 {_tick(right)}"
+
+    def paint_with(self, colours: Palette) -> None:
+        """Shade the support."""
+        self.support.setBrush(pg.mkBrush(colours.plot_fill))
+        for line in self.support.lines:
+            line.setPen(pg.mkPen(colours.plot_curve, style=Qt.PenStyle.DashLine))
+
+
+class StepPlot(AnalysisPlot):
+    """The step response: what the scheme makes of a jump, overshoot and undershoot marked."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(session, "Step response", STEP_RANGE, parent)
+
+    def _build(self, item: pg.PlotItem) -> None:
+        self.one = pg.InfiniteLine(1.0, angle=0)
+        self.peaks = pg.ScatterPlotItem(size=7, antialias=True)
+        for part in (self.one, self.peaks):
+            item.addItem(part, ignoreBounds=True)
+        self._parts = (*self._parts, self.one, self.peaks)
+
+    def draw(self, parameters: Parameters) -> str:
+        """Plot S(t), from 1 before its support to 0 behind it; the words give its extremes."""
+        response = StepResponse(parameters.mask)
+        t = BasicLimitFunction(parameters.mask).parameters(LEVEL)
+        values = response.values(LEVEL)
+        outside_t = np.concatenate([[-HALF_WIDTH - 1], t, [HALF_WIDTH + 1]])
+        outside = np.concatenate([[1.0], values, [0.0]])
+        self._show_curve(outside_t, outside)
+        over, under = response.overshoot, response.undershoot
+        peaks = []
+        if over > LEAST_PEAK:
+            peaks.append((t[values.argmax()], min(values.max(), WIDEST)))
+        if under > LEAST_PEAK:
+            peaks.append((t[values.argmin()], max(values.min(), -WIDEST)))
+        self.peaks.setData(pos=np.reshape(peaks, (-1, 2)))
+        return f"overshoot {_percent(over)} \u00b7 undershoot {_percent(under)}"
+
+    def paint_with(self, colours: Palette) -> None:
+        """Colour the level of the data and the marks at the peaks."""
+        self.one.setPen(pg.mkPen(colours.axis))
+        self.peaks.setPen(pg.mkPen(colours.plot_annotation, width=1.5))
+        self.peaks.setBrush(pg.mkBrush(colours.plot_background))
+
+
+def _grown(excess: float) -> float:
+    """By how much the range grows for a curve that exceeds it: whole steps."""
+    return max(float(np.ceil(excess / RANGE_STEP)), 0.0) * RANGE_STEP
+
+
+def _tick(value: object) -> str:
+    return str(value).replace("-", "\N{MINUS SIGN}")
+
+
+def _percent(share: float) -> str:
+    """A share in percent, with two decimals as long as they say something."""
+    percent = 100 * share
+    if percent == 0 or percent < 100 * LEAST_PEAK:
+        return "0 %"
+    if percent < 0.01:
+        return "< 0.01 %"
+    return f"{percent:.2f} %" if percent < 100 else f"{percent:.0f} %"

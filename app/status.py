@@ -1,0 +1,115 @@
+"""The status bar: what the tool would do, how large the drawing is, the zoom, the cursor."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QWidget
+
+from app.session import Session
+from core.document import Document
+from core.errors import NinepointError
+
+MESSAGE_MS: Final = 8_000
+"""How long a sentence such as "Saved wing.ninepoint." covers the hint: time to read it twice."""
+
+MM_PER_INCH: Final = 25.4
+"""What a screen's dots per inch are counted by."""
+
+SIZE_DELAY_MS: Final = 60
+"""The size is computed when the hand rests this long: it must not slow a drag."""
+
+SIZE_LEVEL: Final = 6
+"""Dyadic level of the points that the size is taken from: 64 a span, exact to some 1e-4 of it."""
+
+SIZE_POINTS: Final = 2_000_000
+"""Largest number of curve points that the size is taken from; long curves are sampled coarser."""
+
+
+class StatusBar(QStatusBar):
+    """Hint, size, zoom and cursor; sentences cover the hint for a while.
+
+    Parameters
+    ----------
+    session
+        The document whose size is shown.
+    """
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.hint = QLabel()
+        self.hint.setAccessibleName("Hint")
+        self.hint.setIndent(8)
+        # A long hint is cut off rather than making the window wider.
+        self.hint.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.addWidget(self.hint, 1)
+        self.size_label = self._figure("Size of the drawing", "9999.99 \u00d7 9999.99 mm")
+        self.zoom_label = self._figure("Zoom", "100000 %")
+        self.cursor_label = self._figure("Cursor", "\N{MINUS SIGN}9999.99, \N{MINUS SIGN}9999.99")
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.setInterval(SIZE_DELAY_MS)
+        self._timer.timeout.connect(self.measure)
+        session.changed.connect(self._on_changed)
+        self.measure()
+
+    def _figure(self, name: str, widest: str) -> QLabel:
+        """A label as wide as its widest text, so that figures change without a jump."""
+        label = QLabel()
+        label.setAccessibleName(name)
+        label.setToolTip(name)
+        label.setMinimumWidth(label.fontMetrics().horizontalAdvance(widest) + 12)
+        self.addPermanentWidget(label)
+        return label
+
+    def tell(self, sentence: str) -> None:
+        """Show a sentence for a while."""
+        self.showMessage(sentence, MESSAGE_MS)
+
+    def show_zoom(self, scale: float) -> None:
+        """Show the zoom, given in logical pixels per mm, in percent of real size."""
+        percent = 100 * scale * MM_PER_INCH / self.logicalDpiX()
+        self.zoom_label.setText(f"{percent:.0f} %" if percent >= 10 else f"{percent:.2g} %")
+
+    def show_cursor(self, position: tuple[float, float] | None) -> None:
+        """Show where the cursor is, in mm, or nothing while it is elsewhere."""
+        if position is None:
+            self.cursor_label.clear()
+            return
+        x, y = position
+        self.cursor_label.setText(f"{x:.2f}, {y:.2f}".replace("-", "\N{MINUS SIGN}"))
+
+    def measure(self) -> None:
+        """Show the size of the drawing as it is now."""
+        size = drawn_size(self._session.document)
+        if size is None:
+            self.size_label.setText("empty")
+        else:
+            self.size_label.setText(f"{size[0]:.2f} \u00d7 {size[1]:.2f} mm")
+
+    def _on_changed(self, old: Document, new: Document) -> None:
+        if old.curves is not new.curves or old.parameters is not new.parameters:
+            self._timer.start()
+
+
+def drawn_size(document: Document) -> tuple[float, float] | None:
+    """Width and height in mm of the box around all limit curves, or None if nothing is drawn."""
+    corners = []
+    for curve in document.curves:
+        if not len(curve.points):
+            continue
+        level = SIZE_LEVEL
+        while level > 0 and len(curve.points) << level > SIZE_POINTS:
+            level -= 1
+        try:
+            points = curve.limit(document.parameters).points(level)
+        except NinepointError:
+            return None
+        corners += [points.min(axis=0), points.max(axis=0)]
+    if not corners:
+        return None
+    width, height = np.max(corners, axis=0) - np.min(corners, axis=0)
+    return float(width), float(height)

@@ -1,0 +1,377 @@
+"""The window: canvas, panels, menus and status bar put together, and `run`, which shows it."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+from PySide6.QtCore import QEvent, QEventLoop, QPoint, QRect, QSettings, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDropEvent,
+    QGuiApplication,
+    QPaintEvent,
+)
+from PySide6.QtWidgets import QApplication, QMainWindow, QToolBar, QWidget
+
+from app.actions import TOOL_BAR, Actions
+from app.canvas import Canvas
+from app.dialogs import Dialogs
+from app.docks import Docks
+from app.exporting import Exporter
+from app.failures import Failures
+from app.files import Files
+from app.guard import guarded
+from app.icons import program_icon
+from app.menus import fill_menu_bar, open_context_menu
+from app.opening import ready_document
+from app.panels import CurvesPanel, PointsPanel
+from app.session import Selection, Session
+from app.settings import STATE_VERSION, Settings, on_screen
+from app.sliders import SchemePanel
+from app.status import StatusBar
+from app.theme import Look
+from core.document import Curve
+from core.errors import FileError
+
+DEFAULT_SIZE: Final = (1280, 800)
+"""Size of the window at the first start, in logical pixels."""
+
+TOOL_ICON_PX: Final = 20
+"""Size of the icons in the tool bar."""
+
+
+class MainWindow(QMainWindow):
+    """Everything that a user sees.
+
+    Parameters
+    ----------
+    session
+        The document.
+    settings
+        What is remembered between two starts.
+    dialogs
+        Asks questions; tests answer in its place.
+
+    Signals
+    -------
+    completed()
+        All is loaded and shown, the plots too, some time after the first paint.
+    """
+
+    completed = Signal()
+
+    session: Session
+    settings: Settings
+    dialogs: Dialogs
+    files: Files
+    exporter: Exporter
+    canvas: Canvas
+    scheme: SchemePanel
+    commands: Actions
+
+    def __init__(
+        self,
+        session: Session | None = None,
+        settings: Settings | None = None,
+        dialogs: Dialogs | None = None,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.session = session or Session(ready_document(), self)
+        self.settings = settings or Settings()
+        self.dialogs = dialogs or Dialogs(self)
+        self._painted = False
+        self.files = Files(self.session, self.settings, self.dialogs, self)
+        self.exporter = Exporter(self.session, self.files, self.settings, self.dialogs, self)
+        self.canvas = Canvas(self.session, self)
+        self.scheme = SchemePanel(self.session)
+        self.curves = CurvesPanel(self.session)
+        self.points = PointsPanel(self.session)
+        self.setCentralWidget(self.canvas)
+        self.docks = Docks(self, self.scheme, self.curves, self.points)
+        self.status = StatusBar(self.session, self)
+        self.setStatusBar(self.status)
+        self.commands = Actions(self)
+        self.tool_bar = self._make_tool_bar()
+        fill_menu_bar(self)
+        self._connect()
+        self.setAcceptDrops(True)
+        self.resize(*DEFAULT_SIZE)
+        self.docks.size()
+        self._first_arrangement = self.saveState(STATE_VERSION)
+        self._show_title()
+        self.canvas.setFocus()
+
+    def _make_tool_bar(self) -> QToolBar:
+        bar = QToolBar("Tools", self)
+        bar.setObjectName("Tools")
+        bar.setAccessibleName("Tools")
+        bar.setIconSize(QSize(TOOL_ICON_PX, TOOL_ICON_PX))
+        for key in TOOL_BAR:
+            if key:
+                bar.addAction(self.commands[key])
+            else:
+                bar.addSeparator()
+        self.addToolBar(Qt.ToolBarArea.LeftToolBarArea, bar)
+        return bar
+
+    def _connect(self) -> None:
+        session, canvas, status = self.session, self.canvas, self.status
+        session.status_changed.connect(self._show_title)
+        session.status_changed.connect(self.commands.refresh)
+        session.selection_changed.connect(lambda _old, _new: self.commands.refresh())
+        self.files.title_changed.connect(self._show_title)
+        self.files.opened.connect(canvas.fit_all)
+        canvas.hint_changed.connect(status.hint.setText)
+        canvas.cursor_moved.connect(status.show_cursor)
+        canvas.zoom_changed.connect(status.show_zoom)
+        canvas.tool_changed.connect(lambda _tool: self.commands.refresh())
+        canvas.customContextMenuRequested.connect(lambda at: open_context_menu(self, at))
+        for teller in (self.files.told, self.exporter.told):
+            teller.connect(status.tell)
+        for refuser in (self.scheme.refused, self.points.refused):
+            refuser.connect(status.tell)
+
+    @property
+    def current_curve(self) -> Curve | None:
+        """The curve that new points go to, if there is any."""
+        curves = self.session.document.curves
+        return curves[self.session.selection.curve] if curves else None
+
+    def undo(self) -> None:
+        """Take the last step back: a drag that is going on, or a whole burst of arrow keys."""
+        self.scheme.settle()
+        if QGuiApplication.mouseButtons() == Qt.MouseButton.NoButton:
+            self.session.commit()  # a burst of keys is complete now, and can be redone
+        self.session.undo()
+
+    def redo(self) -> None:
+        """Bring the last undone step back."""
+        self.scheme.settle()
+        self.session.redo()
+
+    def toggle_closed(self) -> None:
+        """Close, or open, the curves that are selected: all alike, as the current one goes."""
+        current = self.current_curve
+        if current is None:
+            return
+        document, selection = self.session.document, self.session.selection
+        chosen = {curve for curve, _ in selection.points} | {selection.curve}
+        curves = tuple(
+            replace(curve, closed=not current.closed) if index in chosen else curve
+            for index, curve in enumerate(document.curves)
+        )
+        verb, noun = ("Open" if current.closed else "Close"), f"{len(chosen)} curves"
+        name = f"{verb} {'curve' if len(chosen) == 1 else noun}"
+        self.session.edit(replace(document, curves=curves), name)
+
+    def reverse_curve(self) -> None:
+        """Run through the current curve backwards; the same points stay selected."""
+        current = self.current_curve
+        if current is None:
+            return
+        selection, last = self.session.selection, len(current.points) - 1
+        turned = replace(current, points=current.points[::-1])
+        document = self.session.document.with_curve(selection.curve, turned)
+        self.session.edit(document, "Reverse curve")
+        points = frozenset(
+            (curve, last - point if curve == selection.curve else point)
+            for curve, point in selection.points
+        )
+        self.session.select(Selection(points, selection.curve))
+
+    def delete_curve(self) -> None:
+        """Delete the current curve with all of its points."""
+        if self.current_curve is not None:
+            index = self.session.selection.curve
+            self.session.select(Selection(curve=max(index - 1, 0)))
+            self.session.edit(self.session.document.without_curves({index}), "Delete curve")
+
+    def toggle_polygon(self) -> None:
+        """Show or hide control polygon and points."""
+        self.canvas.show_polygon = not self.canvas.show_polygon
+
+    def toggle_grid(self) -> None:
+        """Show or hide the grid."""
+        self.canvas.show_grid = not self.canvas.show_grid
+
+    def reset_layout(self) -> None:
+        """Put the panels and tool bars back to where they were at first."""
+        self.restoreState(self._first_arrangement, STATE_VERSION)
+        self.docks.size()
+
+    def show_keys(self) -> None:
+        """Show the sheet of keys."""
+        from app.keysheet import KeySheet  # rarely wanted
+
+        sheet = KeySheet(self)
+        sheet.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        sheet.open()
+
+    def show_about(self) -> None:
+        """Show name, version and licence."""
+        self.dialogs.about()
+
+    def restore(self) -> None:
+        """Take the place and the arrangement of the last time, on a screen that exists now."""
+        rect = self.settings.window_rect
+        if rect is not None:
+            screens = [screen.availableGeometry() for screen in QGuiApplication.screens()]
+            self.setGeometry(on_screen(rect, screens))
+        else:
+            self._centre()
+        if not self.settings.arrangement.isEmpty():
+            self.restoreState(self.settings.arrangement, STATE_VERSION)
+        if self.settings.maximised:
+            self.setWindowState(self.windowState() | Qt.WindowState.WindowMaximized)
+
+    def _centre(self) -> None:
+        """Take the middle of the screen, and no more than there is of it."""
+        free = QGuiApplication.primaryScreen().availableGeometry()
+        size = QSize(*DEFAULT_SIZE).boundedTo(free.size())
+        rest = (free.size() - size) / 2
+        self.setGeometry(QRect(free.topLeft() + QPoint(rest.width(), rest.height()), size))
+
+    def _remember(self) -> None:
+        self.settings.window_rect = self.normalGeometry()
+        self.settings.maximised = self.isMaximized()
+        self.settings.arrangement = self.saveState(STATE_VERSION)
+
+    def _show_title(self) -> None:
+        # Qt replaces "[*]" by the mark of unsaved changes; doubled it is taken as it stands.
+        name = self.files.title.replace("[*]", "[*][*]")
+        self.setWindowTitle(f"{name}[*] - Ninepoint")
+        self.setWindowModified(self.session.is_modified)
+
+    def _complete(self) -> None:
+        self.docks.plot(self.session)
+        QTimer.singleShot(0, self, self.completed.emit)
+
+    @guarded
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """After the first paint, load what it did not need."""
+        super().paintEvent(event)
+        if not self._painted:
+            self._painted = True
+            QTimer.singleShot(0, self, self._complete)
+
+    @guarded
+    def changeEvent(self, event: QEvent) -> None:
+        """Draw the icons anew in the colours of another scheme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "commands"):
+            self.commands.tint()
+
+    @guarded
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ask about unsaved changes; remember the window's place."""
+        event.ignore()  # stands if anything below fails: better open than lost
+        if self.files.may_leave():
+            self._remember()
+            event.accept()
+
+    @guarded
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take files."""
+        if _local_paths(event):
+            event.acceptProposedAction()
+
+    @guarded
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open the first of the files that are dropped."""
+        paths = _local_paths(event)
+        if paths:
+            event.acceptProposedAction()
+            # A question must not be asked while the other program waits for the drop to end.
+            QTimer.singleShot(0, self, lambda: self._open_dropped(paths))
+
+    def _open_dropped(self, paths: list[Path]) -> None:
+        if self.files.open_path(paths[0]) and len(paths) > 1:
+            self.status.tell(f"Opened {paths[0].name}, the first of {len(paths)} files.")
+
+
+def _local_paths(event: QDropEvent) -> list[Path]:
+    data = event.mimeData()
+    return [Path(url.toLocalFile()) for url in data.urls() if url.isLocalFile()]
+
+
+def run(
+    path: Path | None = None,
+    screenshot: Path | None = None,
+    size: tuple[int, int] | None = None,
+    theme: str = "system",
+) -> int:
+    """Show the window until it is closed, or draw it into a picture.
+
+    Parameters
+    ----------
+    path
+        File to open; else the window opens on a ready shape.
+    screenshot
+        Where to write a picture of the window (PNG) instead of waiting for the user. Settings are
+        neither read nor written then.
+    size
+        Size of the window in logical pixels; the last one, or 1280 x 800, by default.
+    theme
+        "system", "light" or "dark".
+
+    Returns
+    -------
+    int
+        Exit status, 0 if all went well.
+
+    Raises
+    ------
+    NinepointError
+        If a picture was asked for and the file cannot be read or the picture not be written;
+        without ``screenshot`` the user is told in the window instead.
+    """
+    present = QApplication.instance()
+    application = present if isinstance(present, QApplication) else QApplication(sys.argv[:1])
+    application.setOrganizationName("Ninepoint")
+    application.setApplicationName("Ninepoint")
+    application.setDesktopFileName("ninepoint")
+    application.setWindowIcon(program_icon())
+    look = Look(application, theme)
+    window = MainWindow(settings=Settings(None if screenshot else QSettings()))
+    hook = sys.excepthook
+    Failures(window).install()
+    try:
+        if screenshot is not None:
+            return _draw(window, path, screenshot, size or DEFAULT_SIZE)
+        window.restore()
+        if size is not None:
+            window.resize(*size)
+        window.show()
+        if path is not None:
+            window.files.open_path(path)  # before the first paint, but its errors have a parent
+        return application.exec()
+    finally:
+        sys.excepthook = hook
+        look.deleteLater()
+        window.deleteLater()
+
+
+def _draw(window: MainWindow, path: Path | None, picture: Path, size: tuple[int, int]) -> int:
+    """Write a picture of the complete window; errors are raised, there is nobody to be asked."""
+    if path is not None:
+        from core.formats import open_document
+
+        window.files.show_document(open_document(path), path)
+    loop = QEventLoop()
+    window.completed.connect(loop.quit)
+    window.resize(*size)
+    window.show()
+    loop.exec()
+    window.grab()  # what the plots lay out in their first paint is in its place in the second
+    QTimer.singleShot(0, loop, loop.quit)
+    loop.exec()
+    written = window.grab().save(str(picture), "PNG")
+    window.hide()
+    if not written:
+        raise FileError(picture, "the picture cannot be written there.")
+    return 0

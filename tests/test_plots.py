@@ -1,0 +1,166 @@
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+
+from app.opening import ready_document
+from app.plots import LEVEL, BasisPlot, StepPlot
+from app.session import Session
+from app.style import DARK, LIGHT
+from app.theme import window_palette
+from core.basis import BasicLimitFunction
+from core.errors import NoLimitError
+from core.family import PRESETS, Parameters
+
+
+@pytest.fixture
+def session():
+    return Session(ready_document())
+
+
+@pytest.fixture(params=[BasisPlot, StepPlot])
+def plot(request, qtbot, session):
+    plot = request.param(session)
+    qtbot.addWidget(plot)
+    plot.resize(400, 180)
+    plot.show()
+    return plot
+
+
+@pytest.fixture
+def basis(qtbot, session):
+    plot = BasisPlot(session)
+    qtbot.addWidget(plot)
+    return plot
+
+
+@pytest.fixture
+def step(qtbot, session):
+    plot = StepPlot(session)
+    qtbot.addWidget(plot)
+    return plot
+
+
+def choose(session, parameters):
+    session.edit(session.document.with_parameters(parameters), "Set")
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_the_basis_plot_shows_phi_over_its_support(basis, session, name):
+    choose(session, Parameters(1, 1, 1))
+    choose(session, PRESETS[name])
+    phi = BasicLimitFunction(PRESETS[name].mask)
+    t, values = basis.curve.getData()
+    assert np.array_equal(values, phi.values(LEVEL))
+    assert np.array_equal(t, phi.parameters(LEVEL))
+    assert basis.support.getRegion() == tuple(map(float, phi.support))
+
+
+@pytest.mark.parametrize(
+    ("name", "support"),
+    [
+        ("Calm", "\N{MINUS SIGN}13/2 \u2026 13/2"),
+        ("Tight", "\N{MINUS SIGN}17/2 \u2026 17/2"),
+    ],
+)
+def test_the_support_is_named(basis, session, name, support):
+    choose(session, Parameters(1, 1, 1))
+    choose(session, PRESETS[name])
+    assert basis.sentence.endswith("support " + support)
+
+
+@pytest.mark.parametrize(
+    ("name", "sentence", "marks"),
+    [
+        ("Lagrange", "overshoot 11.78 % \u00b7 undershoot 11.78 %", 2),
+        ("Calm", "overshoot 0.03 % \u00b7 undershoot 0.03 %", 2),
+        ("Lean", "overshoot 0 % \u00b7 undershoot 6.13 %", 1),
+        ("B-spline", "overshoot 0 % \u00b7 undershoot 0 %", 0),
+    ],
+)
+def test_the_step_plot_says_how_far_it_overshoots(step, session, name, sentence, marks):
+    choose(session, Parameters(1, 1, 1))
+    choose(session, PRESETS[name])
+    assert step.sentence == sentence
+    assert len(step.peaks.data) == marks
+
+
+def test_the_step_runs_from_one_to_zero(step):
+    t, values = step.curve.getData()
+    assert values[0] == 1
+    assert values[-1] == 0
+    assert (np.diff(t) > 0).all()
+
+
+def test_the_curve_fits_the_range_below_the_words(plot, session):
+    for parameters in [*PRESETS.values(), Parameters(1, 1, 1), Parameters(2, -2, 2)]:
+        choose(session, parameters)
+        _, values = plot.curve.getData()
+        _, (low, high) = plot.getPlotItem().viewRange()
+        assert low < values.min()
+        assert values.max() < high
+
+
+def test_presets_share_one_range(plot, session):
+    ranges = set()
+    for name in ("Calm", "Tight", "Lean", "B-spline"):
+        choose(session, PRESETS[name])
+        ranges.add(str(plot.getPlotItem().viewRange()))
+    assert len(ranges) == 1
+
+
+def test_a_scheme_without_a_limit_clears_the_plot_and_says_so(plot, session, monkeypatch):
+    def refuse(self, level):
+        raise NoLimitError("There is no limit.")
+
+    monkeypatch.setattr(BasicLimitFunction, "values", refuse)
+    choose(session, Parameters("3/7", 0, 0))
+    t, _ = plot.curve.getData()
+    assert t is None or len(t) == 0
+    assert plot.sentence == "There is no limit."
+    assert not plot.curve.isVisible()
+    monkeypatch.undo()
+    choose(session, PRESETS["Tight"])
+    assert plot.curve.isVisible()
+
+
+def test_values_that_run_away_stay_drawable(plot, session):
+    choose(session, Parameters(90, -80, 70))
+    _, values = plot.curve.getData()
+    assert np.isfinite(values).all()
+    plot.grab()
+
+
+def test_the_mouse_moves_nothing(plot):
+    before = plot.getPlotItem().viewRange()
+    QTest.mousePress(plot.viewport(), Qt.MouseButton.LeftButton, pos=QPoint(150, 80))
+    QTest.mouseMove(plot.viewport(), QPoint(220, 120))
+    QTest.mouseRelease(plot.viewport(), Qt.MouseButton.LeftButton, pos=QPoint(220, 120))
+    event = QWheelEvent(
+        QPointF(150, 80), plot.mapToGlobal(QPointF(150, 80)), QPoint(), QPoint(0, 240),
+        Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase,
+        False,
+    )  # fmt: skip
+    QApplication.sendEvent(plot.viewport(), event)
+    assert plot.getPlotItem().viewRange() == before
+
+
+def test_other_edits_do_not_redraw(plot, session, monkeypatch):
+    monkeypatch.setattr(type(plot), "draw", lambda self, parameters: pytest.fail("drawn"))
+    curve = session.document.curves[0]
+    session.edit(session.document.with_curve(0, curve.moved(0, (1.0, 2.0))), "Move point")
+
+
+@pytest.mark.parametrize("colours", [DARK, LIGHT])
+def test_another_colour_scheme_colours_anew(plot, colours):
+    plot.setPalette(window_palette(DARK if colours is LIGHT else LIGHT))
+    plot.setPalette(window_palette(colours))
+    assert plot.curve.opts["pen"].color().name() == colours.plot_curve
+    assert plot.backgroundBrush().color().name() == colours.plot_background
+
+
+def test_the_words_are_there_for_screen_readers(plot):
+    assert plot.accessibleName()
+    assert plot.accessibleDescription() == plot.sentence
