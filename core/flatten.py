@@ -1,37 +1,17 @@
-"""The limit curve as a polyline within a tolerance, with the proven deviation.
-
-Notes
------
-Let ``E(t)`` be the difference between the curve on a span and the chord between its ends. It
-vanishes on linear data, so it is a combination of the second differences of the control points,
-``E(t) = sum_r g_r(t) D2p_r`` (summation by parts, twice), and ``|E| <= c max |D2p|`` with
-``c = sup_t sum_r |g_r(t)|``. The same holds at level L for the refined polygon, whose second
-differences are at most ``rho_L max |D2p|``; rho_L is the norm of the L-fold refinement of second
-differences, whose symbol is ``a(z) / (1+z)^2``.
-
-The sup is proven: between the samples of level m the curve differs from the chords by at most
-``c rho_m``, so ``c <= c_m + c rho_m`` with the largest sample ``c_m``, hence
-``c <= c_m / (1 - rho_m)``. Norms and samples are floats; their rounding, some 1e-13 relative, is
-covered by the factor `ROUNDING`.
-"""
+"""The limit curve as a polyline within a tolerance, with the proven deviation."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Final
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from core.basis import MEMORY, BasicLimitFunction
+from core.chords import chord_constant, second_difference_norm
 from core.errors import NinepointError
 from core.limit import LimitCurve
-from core.mask import Mask
-
-ROUNDING: Final = 1 + 1e-10
-"""Factor on proven bounds that covers the rounding of the floats they are computed with."""
 
 FINEST_LEVEL: Final = 14
 """Level at which the search gives up: 16,384 chords in a span."""
@@ -69,54 +49,6 @@ class Polyline:
     deviation: float
 
 
-@lru_cache(maxsize=MEMORY)
-def second_difference_norm(mask: Mask, level: int) -> float:
-    """Norm ``rho_level``: how much ``max |D2p|`` can grow in ``level`` refinements, at most.
-
-    It is ``max_i sum_j |b_{i - 2^level j}|`` of the iterated symbol
-    ``b(z) b(z^2) ... b(z^(2^(level-1)))``, ``b = a / (1+z)^2`` (paper, Theorem 2.1).
-    """
-    step = mask.divided(2).values
-    iterated = np.ones(1)
-    for _ in range(level):
-        spread = np.zeros(2 * len(iterated) - 1)
-        spread[::2] = iterated
-        iterated = np.convolve(spread, step)
-    period = 2**level
-    padded = np.concatenate([iterated, np.zeros(-len(iterated) % period)])
-    return float(np.abs(padded).reshape(-1, period).sum(axis=0).max()) * ROUNDING
-
-
-@lru_cache(maxsize=MEMORY)
-def chord_constant(mask: Mask) -> float:
-    """Constant c of the chord bound ``|C - chord| <= c max |D2p|`` over one span.
-
-    The maximum runs over the second differences of the points that the span reads.
-
-    Raises
-    ------
-    NinepointError
-        If refinement is not seen to shrink second differences, so that no bound is proven.
-    """
-    for level in range(4, 11, 2):
-        growth = second_difference_norm(mask, level)
-        if growth < 1 / 2:
-            break
-    else:
-        raise NinepointError(
-            "No deviation can be proven for these parameters: the curve may not converge."
-            " Bring alpha, beta and gamma closer to a preset."
-        )
-    table = BasicLimitFunction(mask).table(level)
-    start = table[:, :1]
-    end = np.vstack([np.zeros((1, 1)), start[:-1]])
-    tau = np.arange(2**level) / 2**level
-    weights = table - (1 - tau) * start - tau * end
-    kernel = np.cumsum(np.cumsum(weights, axis=0), axis=0)[:-2]
-    largest = float(np.abs(kernel).sum(axis=0).max())
-    return largest / (1 - growth) * ROUNDING
-
-
 def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     """Polyline through exact curve points, within ``tolerance`` of the curve.
 
@@ -138,8 +70,8 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     Raises
     ------
     NinepointError
-        If the scheme is not seen to converge, or the tolerance needs a level beyond
-        `FINEST_LEVEL` or more than `MAX_SAMPLES` sampled points.
+        If the scheme is not seen to converge (see `core.chords`), or the tolerance needs a level
+        beyond `FINEST_LEVEL` or more than `MAX_SAMPLES` sampled points.
     """
     if not tolerance > 0:
         raise NinepointError(f"The tolerance must be greater than 0, not {tolerance:g}.")

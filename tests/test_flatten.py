@@ -5,12 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.basis import BasicLimitFunction
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
-from core.flatten import chord_constant, polyline, second_difference_norm
+from core.flatten import polyline
 from core.limit import LimitCurve
-from core.refine import subdivide
 from oracles import convergent_members
 
 SHAPE = [(10, 10), (60, -8), (110, 10), (118, 45), (80, 40), (60, 70), (40, 40), (2, 45)]
@@ -56,32 +54,6 @@ def test_vertices_lie_on_the_curve_and_no_vertex_is_repeated(parameters, seed, c
     assert len(np.unique(flat.points, axis=0)) == len(flat.points)
 
 
-@pytest.mark.parametrize("name", PRESETS)
-def test_the_chord_constant_bounds_every_chord(name):
-    mask = PRESETS[name].mask
-    rng = np.random.default_rng(5)
-    points = rng.normal(size=(60, 2))
-    curve = LimitCurve(points, mask, True)
-    fine = curve.span_points(slice(None), 7)
-    share = np.linspace(0, 1, fine.shape[1])[:, None]
-    chords = fine[:, :1] * (1 - share) + fine[:, -1:] * share
-    bends = np.abs(np.diff(curve.endless_points, n=2, axis=0)).max(axis=0)
-    assert (np.abs(fine - chords).max(axis=(0, 1)) <= chord_constant(mask) * bends).all()
-    # A parabola, bent by 1 everywhere, is 1/8 from its chords: no valid constant is smaller.
-    assert chord_constant(mask) >= 1 / 8
-
-
-@pytest.mark.parametrize("level", [1, 2, 4])
-@pytest.mark.parametrize("name", PRESETS)
-def test_second_differences_shrink_as_the_norm_says(name, level):
-    mask = PRESETS[name].mask
-    signs = np.random.default_rng(level).choice([-1.0, 1.0], size=(200, 2))
-    points = np.cumsum(np.cumsum(signs, axis=0), axis=0)
-    inside = slice(30 * 2**level, -30 * 2**level)
-    bends = np.abs(np.diff(subdivide(points, mask, False, level), n=2, axis=0))[inside].max()
-    assert bends <= second_difference_norm(mask, level) * (1 + 1e-9)
-
-
 def test_a_finer_tolerance_never_takes_fewer_vertices():
     curve = LimitCurve(SHAPE, PRESETS["Calm"].mask, True)
     counts = [len(polyline(curve, tolerance).points) for tolerance in (1, 0.1, 0.01, 0.001)]
@@ -125,16 +97,3 @@ def test_a_tolerance_below_rounding_is_refused_in_a_sentence():
 def test_divergent_members_are_refused_in_a_sentence():
     with pytest.raises(NinepointError, match="No deviation can be proven"):
         polyline(LimitCurve(SHAPE, Parameters(50, 0, 0).mask, True), 0.01)
-
-
-def test_the_weights_of_the_bound_reproduce_the_chord_error():
-    """Summation by parts, checked: the kernel applied to second differences is the chord error."""
-    mask = PRESETS["Lean"].mask
-    points = np.random.default_rng(2).normal(size=18)
-    table = BasicLimitFunction(mask).table(3)
-    start = table[:, :1]
-    end = np.vstack([[[0.0]], start[:-1]])
-    tau = np.arange(8) / 8
-    weights = table - (1 - tau) * start - tau * end
-    kernel = np.cumsum(np.cumsum(weights, axis=0), axis=0)[:-2]
-    np.testing.assert_allclose(points @ weights, np.diff(points, n=2) @ kernel, atol=1e-12)

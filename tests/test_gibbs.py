@@ -8,9 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.basis import BasicLimitFunction
+from core.cells import WIDTH
 from core.family import PRESETS, Parameters
-from core.flatten import chord_constant, second_difference_norm
-from core.gibbs import StepResponse
+from core.gibbs import (
+    StepResponse,
+    falls_monotonically,
+    ramp_gibbs,
+    step_gibbs,
+    zeta_violation,
+)
 from core.limit import LimitCurve
 from oracles import convergent_members, step_value
 from reference import ROWS
@@ -45,23 +51,77 @@ def test_reference_overshoot_and_undershoot(row):
     assert step.undershoot == pytest.approx(row.undershoot, abs=5.1e-7)
 
 
+@pytest.mark.parametrize("row", ROWS, ids=str)
+def test_intervals_are_narrow_and_contain_the_reference_and_the_samples(row):
+    gibbs = step_gibbs(row.parameters.mask)
+    step = StepResponse(row.parameters.mask)
+    for interval, sampled, printed in (
+        (gibbs.overshoot, step.overshoot, row.overshoot),
+        (gibbs.undershoot, step.undershoot, row.undershoot),
+    ):
+        assert 0 <= interval.lower <= interval.upper <= interval.lower + WIDTH
+        assert sampled <= interval.upper + 1e-13  # the rounding of a sum of samples
+        assert interval.lower - 5.1e-7 <= printed <= interval.upper + 5.1e-7
+
+
 @pytest.mark.parametrize(
-    ("parameters", "low", "high"),
+    ("parameters", "printed"),
     [
-        (Parameters(1, 1, 1), 0.7279962, 0.7279963),
-        (Parameters("3/10", "-3/5", "-1/5", "mirrored"), 0.0174824, 0.0174856),
+        (Parameters(1, 1, 1), 0.727993),
+        (Parameters("3/10", "-3/5", "-1/5", "mirrored"), 0.017488),
     ],
     ids=str,
 )
-def test_two_overshoots_of_the_theory_are_refuted_by_a_proven_interval(parameters, low, high):
-    """Between samples S leaves the chord by at most the chord bound; its data bend by at most 1."""
-    mask, level = parameters.mask, 15
-    sampled = StepResponse(mask).values(level).max() - 1
-    bound = chord_constant(mask) * second_difference_norm(mask, level)
-    assert low <= sampled
-    assert sampled + bound <= high
-    printed = {1: 0.727993, Fraction(3, 10): 0.017488}[parameters.alpha]
-    assert not sampled - 5e-7 <= printed <= sampled + bound + 5e-7
+def test_two_overshoots_of_the_theory_lie_outside_the_proven_interval(parameters, printed):
+    interval = step_gibbs(parameters.mask).overshoot
+    assert not interval.lower - 5e-7 <= printed <= interval.upper + 5e-7
+
+
+def test_one_exact_value_alone_refutes_the_printed_overshoot():
+    phi = BasicLimitFunction(Parameters(1, 1, 1).mask)
+    assert step_value(phi, Fraction(9, 512)) - 1 > Fraction("0.727996")
+
+
+@given(convergent_members(["translated"]))
+def test_mirroring_the_member_swaps_overshoot_and_undershoot(parameters):
+    here, there = step_gibbs(parameters.mask), step_gibbs(parameters.reversed.mask)
+    assert here.overshoot.lower == pytest.approx(there.undershoot.lower, abs=2 * WIDTH)
+    assert here.undershoot.lower == pytest.approx(there.overshoot.lower, abs=2 * WIDTH)
+
+
+@given(convergent_members(["translated"]))
+def test_the_ramp_response_keeps_within_its_excess(parameters):
+    ramp = np.maximum(np.arange(60) - 29.5, 0)
+    curve = LimitCurve(np.column_stack([np.arange(60), ramp]), parameters.mask, False)
+    inside = slice(18 * 32, -18 * 32)
+    t = curve.parameters(5)[inside]
+    excess = curve.points(5)[inside, 1] - np.maximum(t - 29.5, 0)
+    gibbs = ramp_gibbs(parameters.mask)
+    for interval, sampled in ((gibbs.overshoot, excess.max()), (gibbs.undershoot, -excess.min())):
+        assert sampled <= interval.upper + 1e-13  # the rounding of a sum of samples
+        assert interval.lower <= max(sampled, 0) + 1e-3
+
+
+def test_only_a_proof_makes_a_member_free_of_the_gibbs_effect():
+    assert falls_monotonically(PRESETS["B-spline"].mask)
+    for name in ("Lagrange", "Calm", "Tight", "Lean"):
+        assert not falls_monotonically(PRESETS[name].mask)
+    # Lean has no overshoot above 1e-9, but that is no proof that it has none.
+    assert step_gibbs(PRESETS["Lean"].mask).overshoot.upper > 0
+
+
+def test_the_first_violation_of_the_zeta_criterion_is_a_negative_partial_sum():
+    mask = PRESETS["Calm"].mask
+    violation = zeta_violation(mask)
+    assert (violation.iterations, violation.residue) == (1, 0)
+    # k = 1, l = 0: sums of the even coefficients from the far end.
+    assert violation.value == sum(mask[2 * tau] for tau in range(-10, violation.index + 1)) < 0
+    assert zeta_violation(PRESETS["B-spline"].mask) is None
+
+
+def test_the_ringing_of_lagrange_is_the_longest_of_the_presets_that_follow_the_polygon():
+    calm, lagrange = (StepResponse(PRESETS[n].mask).ringing_length for n in ("Calm", "Lagrange"))
+    assert 2 < calm < lagrange < 6.5
 
 
 def test_the_bspline_does_not_overshoot_at_all():

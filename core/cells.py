@@ -1,0 +1,129 @@
+"""Cells of the dual grid: pieces of a limit function that refinement cuts in halves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.basis import MEMORY, BasicLimitFunction
+from core.chords import cell_constant, size_constant
+from core.errors import NoLimitError
+from core.mask import Mask
+
+WIDTH: Final = 1e-9
+"""Width of the interval of a maximum, unless the search runs out of its budget."""
+
+_MAX_DEPTH: Final = 60
+"""Halvings after which the search ends: for rough functions the interval then stays wider."""
+
+_MAX_CELLS: Final = 4_000
+"""Cells at which the search ends: for divergent schemes nothing can be excluded."""
+
+_ROUNDING: Final = 1e-13
+"""Absolute rounding of a value, for data of size 1: sums of some 20 products, through 60 levels."""
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Numbers between two proven ends; ``upper`` is infinite where no bound is proven."""
+
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cells of one size, with the control points that each of them reads.
+
+    Parameters
+    ----------
+    mask
+        The scheme.
+    windows
+        Shape (k, end - start): row c holds the data ``p_i``, i = j - end + 1 .. j - start, of a
+        cell ``j - 1/2 <= t <= j + 1/2``, or the refined data of a smaller cell in the same way.
+
+    Notes
+    -----
+    Refinement sends the cell j to the cells 2j and 2j + 1 of the finer grid, its two halves.
+    """
+
+    mask: Mask
+    windows: NDArray[np.float64]
+
+    @property
+    def ends(self) -> NDArray[np.float64]:
+        """Exact values at the two ends of each cell, shape (k, 2)."""
+        values = BasicLimitFunction(self.mask).values(0)[::-1]
+        return np.stack([self.windows @ values[1:], self.windows @ values[:-1]], axis=1)
+
+    def upper(self, ends: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Proven upper bounds of the values in each cell, shape (k,).
+
+        The smaller one of two: the larger end plus the chord bound, and, sharp in the tails, where
+        the data are small and nearly constant, the middle of the data plus their half range times
+        `core.chords.size_constant`.
+
+        Raises
+        ------
+        NoLimitError
+            If the scheme is not seen to converge.
+        """
+        bends = np.abs(np.diff(self.windows, n=2, axis=1)).max(axis=1)
+        by_chord = ends.max(axis=1) + cell_constant(self.mask) * bends
+        low, high = self.windows.min(axis=1), self.windows.max(axis=1)
+        by_size = (low + high + size_constant(self.mask) * (high - low)) / 2
+        return np.minimum(by_chord, by_size)
+
+    def halves(self) -> Cells:
+        """The cells of half the size, left halves first."""
+        left, right = _halving(self.mask)
+        return Cells(self.mask, np.concatenate([self.windows @ left.T, self.windows @ right.T]))
+
+    def subset(self, chosen: NDArray[np.bool_]) -> Cells:
+        """Some of the cells."""
+        return Cells(self.mask, self.windows[chosen])
+
+
+def maximum(cells: Cells) -> Interval:
+    """Interval of the maximum over the cells and 0, which the function takes elsewhere.
+
+    The largest end is a lower bound. A cell whose upper bound exceeds it by no more than `WIDTH`
+    is dropped; the others are halved.
+    """
+    lower = dropped = 0.0
+    try:
+        for _ in range(_MAX_DEPTH):
+            ends = cells.ends
+            upper = cells.upper(ends)
+            lower = max(lower, float(ends.max(initial=0.0)))
+            alive = upper > lower + WIDTH - 2 * _ROUNDING
+            dropped = max(dropped, float(upper[~alive].max(initial=0.0)))
+            if not alive.any():
+                return Interval(max(lower - _ROUNDING, 0.0), max(dropped, lower) + _ROUNDING)
+            remaining = max(dropped, float(upper.max()))
+            if alive.sum() > _MAX_CELLS:
+                break
+            cells = cells.subset(alive).halves()
+    except NoLimitError:
+        return Interval(max(lower - _ROUNDING, 0.0), np.inf)
+    return Interval(max(lower - _ROUNDING, 0.0), remaining + _ROUNDING)
+
+
+@lru_cache(maxsize=MEMORY)
+def _halving(mask: Mask) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Matrices that refine a window into those of the left and of the right half."""
+    size = mask.end - mask.start
+    row, column = np.indices((size, size))
+    index = mask.end - 1 + row - 2 * column - mask.start
+
+    def part(shift: int) -> NDArray[np.float64]:
+        place = index + shift
+        inside = (place >= 0) & (place < len(mask.values))
+        return np.where(inside, mask.values[np.clip(place, 0, len(mask.values) - 1)], 0.0)
+
+    return part(0), part(1)

@@ -1,0 +1,147 @@
+"""The continuity class that Theorem 2.1 of the paper certifies (theory, section 8).
+
+References
+----------
+Dyn, Levin: Subdivision schemes in geometric modelling, Acta Numerica 11 (2002), section 4.
+Shi et al., as cited by the paper for Theorem 2.1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from math import lcm
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.basis import MEMORY
+from core.hoelder import rho_floor
+from core.mask import Mask
+
+MAX_ITERATIONS: Final = 10
+"""Largest L that is tried. The masks of the L-fold scheme double in length with each step."""
+
+_UNDECIDED: Final = 1e-9
+"""Distance of a floating-point norm from 1 below which the exact norm decides, at least."""
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Proof that a scheme is C^order: ``||b^[iterations]|| = norm < 1`` for ``order``.
+
+    Attributes
+    ----------
+    order
+        Largest n that Theorem 2.1 certifies within `MAX_ITERATIONS`, or None if not even C^0 is.
+    iterations
+        Smallest L with a norm below 1, or None.
+    norm
+        The norm at that L: a fraction when computed exactly, else a float; None without a proof.
+    """
+
+    order: int | None
+    iterations: int | None
+    norm: Fraction | float | None
+
+
+def derived(mask: Mask, order: int) -> Mask:
+    """Factor b of ``a(z) = (1+z)^(order+1) / 2^order b(z)`` (paper, Theorem 2.1).
+
+    Raises
+    ------
+    ArithmeticError
+        If ``(1+z)^(order+1)`` does not divide the symbol.
+    """
+    return mask.divided(order + 1).scaled(Fraction(2) ** order)
+
+
+def iterated_norm(b: Mask, iterations: int) -> Fraction:
+    """Exact norm ``||b^[L]|| = max_i sum_j |b^[L]_{i - 2^L j}|``, 0 <= i < 2^L.
+
+    ``b^[L](z) = b(z) b(z^2) ... b(z^(2^(L-1)))``; computed in integers over one denominator.
+    """
+    denominator = lcm(*(c.denominator for c in b.coefficients), 1)
+    step = [int(c * denominator) for c in b.coefficients]
+    iterated = [1]
+    for _ in range(iterations):
+        longer = [0] * (2 * len(iterated) - 2 + len(step))
+        for k, value in enumerate(iterated):
+            for i, c in enumerate(step):
+                longer[2 * k + i] += value * c
+        iterated = longer
+    period = 2**iterations
+    sums = [0] * period
+    for k, value in enumerate(iterated):
+        sums[k % period] += abs(value)
+    return Fraction(max(sums), denominator**iterations)
+
+
+def certificate(mask: Mask, exact: bool = False) -> Certificate:
+    """Largest class C^n that Theorem 2.1 proves with L up to `MAX_ITERATIONS`.
+
+    Parameters
+    ----------
+    mask
+        A mask whose rules sum to 1.
+    exact
+        Whether the norm is returned as an exact fraction, for a final proof. The class and L are
+        the same in both ways: a norm that floats cannot tell from 1 is computed exactly.
+
+    Returns
+    -------
+    Certificate
+        A proof, or ``order`` None: the theorem is sufficient only, so that is no disproof.
+    """
+    found = _certificate(mask)
+    if not exact or found.order is None or found.iterations is None:
+        return found
+    norm = iterated_norm(derived(mask, found.order), found.iterations)
+    return Certificate(found.order, found.iterations, norm)
+
+
+@lru_cache(maxsize=MEMORY)
+def _certificate(mask: Mask) -> Certificate:
+    multiplicity, _ = mask.factored()
+    # b of a lower order has the factors (1+z)/2 more: eigenvalues of its matrices are those of the
+    # last b, halved each time. Norms are never below them, so these orders need no trial.
+    floor = float(np.log2(rho_floor(mask)))
+    highest = min(multiplicity - 1, int(np.ceil(multiplicity - 1 - floor)))
+    for order in range(highest, -1, -1):
+        b = derived(mask, order)
+        for iterations, (norm, error) in enumerate(_float_norms(b.values), start=1):
+            if norm - error >= 1:
+                continue
+            if norm + error < 1:
+                return Certificate(order, iterations, norm)
+            exact = iterated_norm(b, iterations)
+            if exact < 1:
+                return Certificate(order, iterations, float(exact))
+    return Certificate(None, None, None)
+
+
+def _float_norms(step: NDArray[np.float64]) -> list[tuple[float, float]]:
+    """Norms for L = 1, 2, ..., each with a bound of its rounding error.
+
+    Each coefficient of the L-fold mask is a sum of at most len(step)^L products of L factors. Its
+    rounding, doubled for the rounding of the coefficients of b themselves, is below
+    ``2 L (len(step) + 1) eps`` times the same sum of absolute values, whose norm is at most
+    ``||b||^L``.
+    """
+    eps = float(np.finfo(np.float64).eps)
+    padded = np.concatenate([step, np.zeros(len(step) % 2)])
+    single = float(np.abs(padded).reshape(-1, 2).sum(axis=0).max())
+    iterated = np.ones(1)
+    norms = []
+    for iterations in range(1, MAX_ITERATIONS + 1):
+        spread = np.zeros(2 * len(iterated) - 1)
+        spread[::2] = iterated
+        iterated = np.convolve(spread, step)
+        period = 2**iterations
+        whole = np.concatenate([iterated, np.zeros(-len(iterated) % period)])
+        norm = float(np.abs(whole).reshape(-1, period).sum(axis=0).max())
+        error = 2 * iterations * (len(step) + 1) * eps * single**iterations
+        norms.append((norm, max(error, _UNDECIDED)))
+    return norms

@@ -1,0 +1,305 @@
+"""The Hölder exponent of the limit functions, as a proven interval (theory, section 8).
+
+With m the full multiplicity of (1+z) and ``b = 2^(m-1) a / (1+z)^m``, the exponent is
+``m - 1 - log2(rho)``; rho is the joint spectral radius of the two matrices
+``(B_e)_{ij} = b_{2i-j+e}``.
+
+Notes
+-----
+What is proven: every product of k matrices gives a lower bound of rho, its spectral radius to the
+power 1/k; every norm gives upper bounds. The lower bound of the exponent follows from norms of
+matrices, computed in floats and widened by `ROUNDING`. The upper bound follows from eigenvalues by
+LAPACK, widened by `ROUNDING` and by the first-order condition number of the eigenvalue; that last
+step is an estimate where the eigenvalue is nearly defective, and the only one that is not a proof.
+That the exponent cannot be larger than the formula needs stable integer shifts of phi.
+
+References
+----------
+Rioul: Simple regularity criteria for subdivision schemes, SIAM J. Math. Anal. 23 (1992).
+Gripenberg: Computing the joint spectral radius, Linear Algebra Appl. 234 (1996).
+Guglielmi, Protasov: Exact computation of joint spectral characteristics of linear operators,
+Found. Comput. Math. 13 (2013).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache
+from itertools import product
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.basis import MEMORY
+from core.mask import Mask
+from core.polytope import INSIDE, invariant_polytope
+
+ROUNDING: Final = 1 + 1e-10
+"""Factor on all bounds of rho that covers the rounding of norms of products."""
+
+QUICK_WIDTH: Final = 0.049
+"""Width that is aimed at while a slider moves."""
+
+QUICK_NODES: Final = 15_000
+"""Products after which the quick search states what it has: about one frame's worth."""
+
+_WORD_LENGTH: Final = 6
+"""Longest products whose spectral radii are tried as lower bounds of rho."""
+
+_TRIED_WORDS: Final = 3
+"""Longer products tried at each length: those whose norms are the largest."""
+
+_LONGEST_WORD: Final = 60
+"""Longest products that are searched; their digits fit into an integer."""
+
+_SLACKS: Final = ((0.0, 200), (1e-6, 300), (1e-4, 600), (3e-4, 900))
+"""Stretches of rho for which an invariant polytope is sought, and the vertices at which each is
+given up; 30 to 100 are usual, and log2(1 + 3e-4) is below 0.0005."""
+
+_SEED_SIZE: Final = 0.02
+"""Size of the unit vectors in the first polytope, next to the leading eigenvector."""
+
+
+@dataclass(frozen=True)
+class HoelderInterval:
+    """Interval that contains the Hölder exponent.
+
+    Attributes
+    ----------
+    lower, upper
+        Ends of the interval; equal up to rounding where the exponent is known exactly.
+    product
+        Binary digits of the product of matrices that gives the upper end, such as "0" or "01";
+        empty where no matrix is needed.
+    """
+
+    lower: float
+    upper: float
+    product: str
+
+    @property
+    def width(self) -> float:
+        """Length of the interval."""
+        return self.upper - self.lower
+
+
+@dataclass(frozen=True, eq=False)
+class _Radius:
+    """The two matrices in well-scaled coordinates, and the best product found."""
+
+    multiplicity: int
+    matrices: NDArray[np.float64]
+    word: tuple[int, ...]
+    value: float
+    lower: float
+    leading: NDArray[np.float64]
+
+    def exponent(self, rho: float) -> float:
+        """Hölder exponent that a joint spectral radius would give."""
+        return self.multiplicity - 1 - float(np.log2(rho))
+
+    def interval(self, rho: float) -> HoelderInterval:
+        """Interval between an upper bound of rho and the best lower bound."""
+        word = "".join(map(str, self.word))
+        return HoelderInterval(self.exponent(rho), self.exponent(self.lower), word)
+
+
+def transition_matrices(mask: Mask) -> tuple[int, NDArray[np.float64]]:
+    """Multiplicity m of (1+z) and the matrices ``B_0, B_1``, shape (2, d, d), d >= 1."""
+    multiplicity, quotient = mask.factored()
+    b = quotient.values * 2.0 ** (multiplicity - 1)
+    size = max(len(b) - 1, 1)
+    index = np.arange(size)
+    place = 2 * index[:, None] - index[None, :] + np.arange(2)[:, None, None]
+    inside = (place >= 0) & (place < len(b))
+    return multiplicity, np.where(inside, b[np.clip(place, 0, len(b) - 1)], 0.0)
+
+
+def rho_floor(mask: Mask) -> float:
+    """Lower bound of the joint spectral radius of the transition matrices."""
+    return _radius(mask).lower
+
+
+def quick_interval(mask: Mask) -> HoelderInterval:
+    """Hölder interval by branch and bound, within a frame: width `QUICK_WIDTH` as a rule."""
+    return branch_and_bound(mask, QUICK_WIDTH, QUICK_NODES)
+
+
+def branch_and_bound(mask: Mask, width: float, max_nodes: int) -> HoelderInterval:
+    """Hölder interval by Gripenberg's branch and bound.
+
+    Parameters
+    ----------
+    mask
+        Mask with at least one factor (1+z).
+    width
+        Width at which the search ends; greater than 0.
+    max_nodes
+        Number of products after which it ends in any case, with a valid, wider interval. More
+        products never give a wider one.
+
+    Returns
+    -------
+    HoelderInterval
+        The proven interval.
+    """
+    return _searched(mask, width, max_nodes)[0]
+
+
+@lru_cache(maxsize=MEMORY)
+def _searched(mask: Mask, width: float, max_nodes: int) -> tuple[HoelderInterval, _Radius]:
+    """Branch and bound; also the matrices with the best product that was met on the way."""
+    radius = _radius(mask)
+    if not radius.word:
+        return radius.interval(radius.lower), radius
+    target = radius.lower * 2.0**width
+    # Products are kept relative to the target, so that long ones neither grow nor vanish.
+    steps = radius.matrices / target
+    products, words = steps, np.array([0, 1])
+    shortest = np.full(len(products), np.inf)
+    length, nodes, bound = 1, 0, np.inf
+    while True:
+        nodes += len(products)
+        shortest = np.minimum(shortest, _norms(products) ** (1 / length))
+        # A product whose norm fell below 1 can be split off any longer one: it needs no children.
+        alive = np.flatnonzero(shortest > 1)
+        products, shortest = products[alive], shortest[alive]
+        words = words[alive]
+        bound = min(bound, target * max(float(shortest.max(initial=1.0)), 1.0))
+        spent = nodes + 2 * len(products) > max_nodes or length == _LONGEST_WORD
+        if spent or not len(products):
+            return radius.interval(bound * ROUNDING), radius
+        if length > _WORD_LENGTH:
+            largest = np.argsort(-shortest)[:_TRIED_WORDS]
+            radius = _improved(radius, [_digits(int(words[k]), length) for k in largest])
+            shrink = target / (radius.lower * 2.0**width)
+            target /= shrink
+            steps = steps * shrink
+            products = products * shrink**length
+            shortest = shortest * shrink
+        products = np.matmul(steps[:, None], products[None]).reshape(-1, *steps.shape[1:])
+        words = np.concatenate([2 * words, 2 * words + 1])
+        shortest = np.tile(shortest, 2)
+        length += 1
+
+
+def _digits(code: int, length: int) -> tuple[int, ...]:
+    """Binary digits of a word, the first one leading."""
+    return tuple(code >> place & 1 for place in reversed(range(length)))
+
+
+def _improved(radius: _Radius, words: list[tuple[int, ...]]) -> _Radius:
+    """The same matrices with the best of some words, if one of them beats the present product."""
+    for word in words:
+        value, lower, leading = _spectral_radius(radius.matrices, word)
+        if lower > radius.lower * ROUNDING**2:
+            radius = replace(radius, word=word, value=value, lower=lower, leading=leading)
+    return radius
+
+
+def exact_interval(mask: Mask, cancelled: Callable[[], bool] = lambda: False) -> HoelderInterval:
+    """Hölder interval as narrow as it gets: at most 3e-9 wide where an invariant polytope closes.
+
+    If the product that gives the lower bound of rho is a maximal one, the orbit of its leading
+    eigenvector spans an invariant polytope, and rho is known. Otherwise a slightly stretched rho
+    admits one, and the interval is at most 0.0005 wide.
+
+    Parameters
+    ----------
+    mask
+        Mask with at least one factor (1+z).
+    cancelled
+        Asked now and then; True ends the search with the best interval so far.
+    """
+    best, radius = _searched(mask, QUICK_WIDTH, QUICK_NODES)
+    if not radius.word:
+        return best
+    size = radius.matrices.shape[1]
+    for slack, max_vertices in _SLACKS:
+        rho = radius.value * (1 + slack)
+        steps = radius.matrices / rho
+        seeds = [radius.leading]
+        for digit in radius.word[:-1]:
+            seeds.append(steps[digit] @ seeds[-1])
+        small = _SEED_SIZE * max(float(np.abs(seed).max()) for seed in seeds)
+        first = np.column_stack([small * np.eye(size), *seeds])
+        if invariant_polytope(steps, first, max_vertices, cancelled):
+            found = radius.interval(rho * INSIDE * ROUNDING)
+            return HoelderInterval(max(found.lower, best.lower), best.upper, best.product)
+        if cancelled():
+            break
+    return best
+
+
+def _norms(products: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Frobenius norms: submultiplicative, and cheap for thousands of matrices."""
+    return np.sqrt(np.einsum("pij,pij->p", products, products))
+
+
+@lru_cache(maxsize=MEMORY)
+def _radius(mask: Mask) -> _Radius:
+    """Scale the matrices well, and find the product with the largest mean spectral radius."""
+    multiplicity, matrices = transition_matrices(mask)
+    if matrices.shape[1] == 1:
+        # b has one or two coefficients; the matrices are numbers and rho is the larger one.
+        value = float(np.abs(matrices).max())
+        return _Radius(multiplicity, matrices, (), value, value, np.ones(1))
+    matrices = _well_scaled(matrices)
+    found = [(_spectral_radius(matrices, word), word) for word in _lyndon_words(_WORD_LENGTH)]
+    # Among products that are as good up to rounding the shortest one, which comes first.
+    largest = max(lower for (_, lower, _), _ in found)
+    (value, lower, leading), word = next(f for f in found if f[0][1] * ROUNDING >= largest)
+    return _Radius(multiplicity, matrices, word, value, lower / ROUNDING, leading)
+
+
+def _well_scaled(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Similar matrices for which the Euclidean norm is nearly extremal.
+
+    The dominant eigenvector X of the positive map ``X -> sum_e B_e^T X B_e``, with eigenvalue
+    lambda, is an ellipsoid with ``B_e^T X B_e <= lambda X``, so ``||B_e||_X <= sqrt(lambda)``, and
+    ``rho >= sqrt(lambda / 2)``. A share of the unit matrix keeps it away from being singular.
+    """
+    size = matrices.shape[1]
+    ellipsoid = np.eye(size) / size
+    for _ in range(40):
+        image = np.matmul(matrices.transpose(0, 2, 1), np.matmul(ellipsoid, matrices)).sum(axis=0)
+        ellipsoid = image / np.trace(image) + 1e-9 * np.eye(size)
+    root = np.linalg.cholesky(ellipsoid).T
+    scaled: NDArray[np.float64] = root @ matrices @ np.linalg.inv(root)
+    return scaled
+
+
+def _spectral_radius(
+    matrices: NDArray[np.float64], word: tuple[int, ...]
+) -> tuple[float, float, NDArray[np.float64]]:
+    """Mean spectral radius of the product of a word, the same rounded down, and its eigenvector."""
+    power = matrices[word[0]]
+    for digit in word[1:]:
+        power = matrices[digit] @ power
+    values, vectors = np.linalg.eig(power)
+    index = int(np.abs(values).argmax())
+    vector = vectors[:, index]
+    size = abs(values[index])
+    try:
+        left = np.linalg.inv(vectors)[index]
+        condition = float(np.linalg.norm(left) * np.linalg.norm(vector))
+    except np.linalg.LinAlgError:
+        condition = np.inf
+    eps = float(np.finfo(np.float64).eps)
+    error = 10 * eps * condition * float(np.linalg.norm(power))
+    real = vector.real if np.abs(vector.real).max() >= np.abs(vector.imag).max() else vector.imag
+    lower = max(size - error, 0.0) ** (1 / len(word))
+    return size ** (1 / len(word)), lower, real / np.linalg.norm(real)
+
+
+@cache
+def _lyndon_words(longest: int) -> tuple[tuple[int, ...], ...]:
+    """Binary words that are smaller than all their rotations: one for each primitive product."""
+    words = []
+    for length in range(1, longest + 1):
+        for word in product((0, 1), repeat=length):
+            if all(word < word[k:] + word[:k] for k in range(1, length)):
+                words.append(word)
+    return tuple(words)

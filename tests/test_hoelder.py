@@ -1,0 +1,108 @@
+"""Hölder exponents as proven intervals."""
+
+from math import log2
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.continuity import derived, iterated_norm
+from core.family import PRESETS, Parameters
+from core.hoelder import (
+    branch_and_bound,
+    exact_interval,
+    quick_interval,
+    transition_matrices,
+)
+from oracles import convergent_members
+from reference import ROWS
+
+
+def word_bound(mask, word):
+    """Upper bound of the exponent from one product, by its definition."""
+    multiplicity, matrices = transition_matrices(mask)
+    product = np.eye(matrices.shape[1])
+    for digit in word:
+        product = matrices[digit] @ product
+    return multiplicity - 1 - log2(np.abs(np.linalg.eigvals(product)).max() ** (1 / len(word)))
+
+
+@pytest.mark.parametrize("row", ROWS, ids=str)
+def test_reference_intervals_overlap_and_are_narrowed(row):
+    low, high = row.hoelder
+    quick, exact = quick_interval(row.parameters.mask), exact_interval(row.parameters.mask)
+    for found in (quick, exact):
+        assert found.lower <= high + 5.1e-4
+        assert found.upper >= low - 5.1e-4
+    assert quick.width <= 0.05
+    assert exact.width <= 1e-3
+    assert quick.lower <= exact.lower <= exact.upper <= quick.upper
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_presets_are_known_up_to_rounding(name):
+    assert exact_interval(PRESETS[name].mask).width < 1e-7
+
+
+def test_the_exponent_of_the_bspline_is_its_degree():
+    found = exact_interval(PRESETS["B-spline"].mask)
+    assert found.lower == found.upper == 12
+
+
+@settings(max_examples=30)
+@given(convergent_members(), st.integers(1, 5), st.integers(0, 31))
+def test_no_product_contradicts_the_lower_end(parameters, length, code):
+    """Each product bounds the exponent from above: the proven lower end lies below all of them."""
+    word = [code >> k & 1 for k in range(length)]
+    assert quick_interval(parameters.mask).lower <= word_bound(parameters.mask, word) + 1e-9
+
+
+@settings(max_examples=30)
+@given(convergent_members(["translated"]), st.integers(1, 5))
+def test_no_norm_contradicts_the_upper_end(parameters, iterations):
+    """Each exact norm bounds the exponent from below: ``m - 1 - log2(norm^(1/L))``."""
+    multiplicity = parameters.mask.factored()[0]
+    norm = iterated_norm(derived(parameters.mask, multiplicity - 1), iterations)
+    bound = multiplicity - 1 - log2(norm) / iterations
+    assert quick_interval(parameters.mask).upper >= bound - 1e-9
+
+
+@settings(max_examples=20)
+@given(convergent_members())
+def test_intervals_shrink_with_the_budget(parameters):
+    intervals = [branch_and_bound(parameters.mask, 0.01, n) for n in (10, 100, 1000)]
+    for wide, narrow in zip(intervals, intervals[1:], strict=False):
+        assert wide.lower <= narrow.lower + 1e-12
+        assert narrow.upper <= wide.upper + 1e-12
+        assert narrow.lower <= narrow.upper
+
+
+@settings(max_examples=15)
+@given(convergent_members(["translated"]))
+def test_the_exact_interval_lies_within_the_quick_one(parameters):
+    quick, exact = quick_interval(parameters.mask), exact_interval(parameters.mask)
+    assert quick.lower <= exact.lower <= exact.upper <= quick.upper + 1e-12
+
+
+def test_a_cancelled_search_states_what_it_has():
+    mask = PRESETS["Lean"].mask
+    assert exact_interval(mask, cancelled=lambda: True) == quick_interval(mask)
+
+
+def test_most_of_the_sliders_box_is_decided_within_a_frames_budget():
+    rng = np.random.default_rng(4)
+    widths = []
+    for _ in range(60):
+        alpha, beta, gamma = (rng.uniform(-1, 1, size=3) * (0.5, 1, 0.5)).round(3)
+        widths.append(
+            quick_interval(Parameters(float(alpha), float(beta), float(gamma)).mask).width
+        )
+    assert np.mean(np.array(widths) <= 0.05) >= 0.9
+
+
+def test_the_transition_matrices_are_those_of_the_definition():
+    multiplicity, matrices = transition_matrices(PRESETS["Calm"].mask)
+    b = derived(PRESETS["Calm"].mask, multiplicity - 1)
+    for e, i, j in np.ndindex(matrices.shape):
+        assert matrices[e, i, j] == float(b[b.start + 2 * i - j + e])
