@@ -25,9 +25,7 @@ HALF = Fraction(1, 2)
 MEMORY = 128
 """Number of tables and value arrays kept: a few masks at all levels, while a slider moves."""
 
-_NO_LIMIT = (
-    "This scheme has no unique limit curve for these parameters; move a slider a little."
-)
+_NO_LIMIT = "This scheme has no unique limit curve for these parameters; move a slider a little."
 
 
 @dataclass(frozen=True)

@@ -77,9 +77,7 @@ def _refined_line(
     low, high = 2 * last + mask.start, 2 * first + mask.end
     spread = np.zeros((2 * len(polygon) - 1, *polygon.shape[1:]))
     spread[::2] = polygon
-    full = np.stack(
-        [np.convolve(column, mask.values) for column in spread.T], axis=-1
-    )
+    full = np.stack([np.convolve(column, mask.values) for column in spread.T], axis=-1)
     # Entry k of the full convolution is P_{2 first + start + k}; those that read points beyond the
     # piece are left out.
     begin = high - 1 - (2 * first + mask.start)

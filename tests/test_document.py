@@ -56,11 +56,16 @@ def test_documents_share_what_an_edit_does_not_touch():
     assert edited.curves[1] is document.curves[1]
     assert edited.parameters is document.parameters
     assert document.with_parameters(PRESETS["Tight"]).curves is document.curves
-    assert document.with_curve_added(document.curves[0]).curves == (*document.curves, document.curves[0])
+    assert document.with_curve_added(document.curves[0]).curves == (
+        *document.curves,
+        document.curves[0],
+    )
     assert document.without_curves({0}).curves == (document.curves[1],)
 
 
-@pytest.mark.parametrize(("n", "closed", "loop"), [(2, True, False), (3, True, True), (3, False, False)])
+@pytest.mark.parametrize(
+    ("n", "closed", "loop"), [(2, True, False), (3, True, True), (3, False, False)]
+)
 def test_a_loop_needs_three_points(n, closed, loop):
     curve = Curve(SQUARE[:n], closed)
     assert curve.is_loop is loop

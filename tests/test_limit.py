@@ -136,9 +136,7 @@ def test_the_curve_at_any_parameter_lies_on_the_curve(parameters, n, seed, close
     curve = LimitCurve(polygon(n, seed), parameters.mask, closed)
     level = 3
     k = int(share * (len(curve.parameters(level)) - 1))
-    np.testing.assert_allclose(
-        curve.at(k / 2**level), curve.points(level)[k], atol=1e-11
-    )
+    np.testing.assert_allclose(curve.at(k / 2**level), curve.points(level)[k], atol=1e-11)
     t = share * curve.spans
     fine = curve.span_points(slice(None), 10).reshape(-1, 2)
     gap = np.abs(np.diff(fine, axis=0)).max()
