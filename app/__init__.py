@@ -1,0 +1,1 @@
+"""Ninepoint's windows and commands: the only package that knows Qt."""
