@@ -89,6 +89,18 @@ class BasicLimitFunction:
         weights = {j: self.at(t + HALF - j) for j in range(first, last + 1)}
         return Stencil.from_mapping(weights)
 
+    def tangent_stencil(self, t: Fraction = Fraction(0)) -> Stencil:
+        """Exact weights of the control points in the derivative ``C'(t)``, t dyadic.
+
+        ``phi'(x) = psi(x) - psi(x - 1)`` with the basic limit function psi of the scheme
+        ``2 a(z) / (1+z)`` (theory, section 6). The scheme must be C^1.
+        """
+        psi = BasicLimitFunction(self.mask.divided().scaled(Fraction(2)))
+        first = (t + HALF - self.mask.end).__floor__() + 1
+        last = (t + HALF - self.mask.start).__ceil__() - 1
+        places = {j: t + HALF - j for j in range(first, last + 1)}
+        return Stencil.from_mapping({j: psi.at(x) - psi.at(x - 1) for j, x in places.items()})
+
     @cached_property
     def _float_integer_values(self) -> NDArray[np.float64]:
         """The values of `integer_values` from a floating-point solve, start..end."""
@@ -104,33 +116,40 @@ class BasicLimitFunction:
             raise NoLimitError(_NO_LIMIT)
         return np.concatenate([[0.0], solution, [0.0]])
 
-    def values(self, level: int) -> NDArray[np.float64]:
-        """Values of phi at all dyadic points of a level, rounded to floats.
+    def values(self, level: int, order: int = 0) -> NDArray[np.float64]:
+        """Values of phi, or of a derivative, at all dyadic points of a level, rounded to floats.
 
         Parameters
         ----------
         level
             The points are ``x = start + k / 2^level``.
+        order
+            Which derivative, 0 for phi itself. The order-d derivative is the d-fold backward
+            difference of the basic limit function of the scheme ``2^d a(z) / (1+z)^d`` (theory,
+            section 6). It exists for schemes that are C^order, which the caller makes sure of.
 
         Returns
         -------
         ndarray
             Shape ``((end - start) 2^level + 1,)``, read-only; the first and last value are 0.
         """
-        return _float_values(self, level)
+        return _float_values(self, level) if order == 0 else _derivative(self, level, order)
 
     def parameters(self, level: int) -> NDArray[np.float64]:
         """Curve parameters t of the entries of `values`: ``start - 1/2 + k / 2^level``."""
         width = self.mask.end - self.mask.start
-        return float(self.support[0]) + np.arange(width * 2**level + 1) / 2**level
+        offsets: NDArray[np.float64] = np.arange(width * 2**level + 1) / 2**level
+        return float(self.support[0]) + offsets
 
-    def table(self, level: int) -> NDArray[np.float64]:
+    def table(self, level: int, order: int = 0) -> NDArray[np.float64]:
         """Evaluation table of one span (theory, section 6).
 
         Parameters
         ----------
         level
             The span ``[i, i+1)`` is evaluated at ``t = i + m / 2^level``.
+        order
+            Which derivative with respect to t, as in `values`.
 
         Returns
         -------
@@ -138,7 +157,7 @@ class BasicLimitFunction:
             ``B[r, m]``, shape ``(end - start + 1, 2^level)``, with
             ``C(i + m / 2^level) = sum_r B[r, m] p_{i + r + 1 - end}``.
         """
-        return _table(self, level)
+        return _table(self, level, order)
 
     def weights(self, tau: float) -> NDArray[np.float64]:
         """Weights of the control points in a curve point at any place of a span.
@@ -152,7 +171,8 @@ class BasicLimitFunction:
         Returns
         -------
         ndarray
-            Shape (end - start + 1,): ``C(i + tau) = sum_r w[r] p_{i + r + 1 - end}``, as in `table`.
+            Shape (end - start + 1,), as in `table`:
+            ``C(i + tau) = sum_r w[r] p_{i + r + 1 - end}``.
 
         Notes
         -----
@@ -235,11 +255,25 @@ def _float_values(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
 
 
 @lru_cache(maxsize=MEMORY)
-def _table(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
+def _derivative(phi: BasicLimitFunction, level: int, order: int) -> NDArray[np.float64]:
+    """Backward differences of the basic limit function of the divided-difference scheme."""
+    divided = phi.mask.divided(order).scaled(Fraction(2**order))
+    step = 2**level
+    values = np.zeros((phi.mask.end - phi.mask.start) * step + 1)
+    coarse = BasicLimitFunction(divided).values(level)
+    values[: len(coarse)] = coarse
+    for _ in range(order):
+        values[step:] -= values[:-step].copy()
+    values.flags.writeable = False
+    return values
+
+
+@lru_cache(maxsize=MEMORY)
+def _table(phi: BasicLimitFunction, level: int, order: int) -> NDArray[np.float64]:
     """Cut phi, half a span ahead of its support, into spans; the last one is row 0."""
     fine = max(level, 1)
     half = 2 ** (fine - 1)
-    padded = np.concatenate([np.zeros(half), phi.values(fine), np.zeros(half - 1)])
+    padded = np.concatenate([np.zeros(half), phi.values(fine, order), np.zeros(half - 1)])
     spans = padded.reshape(-1, 2**fine)
     table = np.ascontiguousarray(spans[::-1, :: 2 ** (fine - level)])
     table.flags.writeable = False

@@ -77,7 +77,7 @@ class Cells:
         by_chord = ends.max(axis=1) + cell_constant(self.mask) * bends
         low, high = self.windows.min(axis=1), self.windows.max(axis=1)
         by_size = (low + high + size_constant(self.mask) * (high - low)) / 2
-        return np.minimum(by_chord, by_size)
+        return np.asarray(np.minimum(by_chord, by_size), dtype=np.float64)
 
     def halves(self) -> Cells:
         """The cells of half the size, left halves first."""

@@ -9,17 +9,19 @@ Shi et al., as cited by the paper for Theorem 2.1.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from fractions import Fraction
 from functools import lru_cache
-from math import lcm
+from math import ceil, floor, lcm
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.basis import MEMORY
-from core.hoelder import rho_floor
+from core.hoelder import HoelderInterval, exact_interval, quick_interval, rho_floor
 from core.mask import Mask
+from core.polytope import Cancelled, never
 
 MAX_ITERATIONS: Final = 10
 """Largest L that is tried. The masks of the L-fold scheme double in length with each step."""
@@ -120,6 +122,76 @@ def _certificate(mask: Mask) -> Certificate:
             if exact < 1:
                 return Certificate(order, iterations, float(exact))
     return Certificate(None, None, None)
+
+
+class Convergence(Enum):
+    """What is known of the convergence of a scheme to continuous curves."""
+
+    PROVEN = "proven"
+    DISPROVEN = "disproven"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True)
+class Smoothness:
+    """All that is proven of the class of a scheme.
+
+    Attributes
+    ----------
+    certificate
+        What Theorem 2.1 gives.
+    exponent
+        Interval of the Hölder exponent.
+    not_class
+        Smallest n for which it is proven that the limits are not C^n in general.
+    """
+
+    certificate: Certificate
+    exponent: HoelderInterval
+    not_class: int
+
+    @property
+    def order(self) -> int | None:
+        """Largest n with C^n proven: by Theorem 2.1, or by an exponent above n; None without."""
+        by_exponent = ceil(self.exponent.lower) - 1
+        by_theorem = -1 if self.certificate.order is None else self.certificate.order
+        order = max(by_exponent, by_theorem)
+        return order if order >= 0 else None
+
+    @property
+    def convergence(self) -> Convergence:
+        """Whether the scheme converges to continuous curves."""
+        if self.order is not None:
+            return Convergence.PROVEN
+        return Convergence.DISPROVEN if self.not_class == 0 else Convergence.UNDECIDED
+
+
+def smoothness(mask: Mask, narrow: bool = False, cancelled: Cancelled = never) -> Smoothness:
+    """Class of a scheme from both sides: proven, and proven not (theory, section 8).
+
+    A scheme with an exponent of at most n is not C^n, except that limits of an exponent n may
+    still be; an exponent of at most 0 means that the scheme does not converge to continuous
+    curves. A symbol ``(1+z)^m`` up to a factor gives splines of degree m - 1, which are C^(m-2)
+    and no more.
+
+    Parameters
+    ----------
+    mask
+        A mask whose rules sum to 1.
+    narrow
+        Whether the exponent is narrowed as far as it goes, some 50 ms, or within a frame.
+    cancelled
+        Asked now and then; True ends the narrowing.
+    """
+    exponent = exact_interval(mask, cancelled) if narrow else quick_interval(mask)
+    multiplicity, quotient = mask.factored()
+    if len(quotient.coefficients) == 1:
+        not_class = multiplicity - 1
+    elif exponent.upper <= 0:
+        not_class = 0
+    else:
+        not_class = floor(exponent.upper) + 1
+    return Smoothness(certificate(mask), exponent, not_class)
 
 
 def _float_norms(step: NDArray[np.float64]) -> list[tuple[float, float]]:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import numpy as np
 from numpy.typing import NDArray
 
 from core.basis import BasicLimitFunction
+from core.errors import NoLimitError
 from core.mask import Mask
 
 
@@ -83,6 +86,62 @@ def end_points(points: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
     except np.linalg.LinAlgError:
         return ends
     return ends + shift
+
+
+def end_rules(mask: Mask) -> tuple[tuple[Fraction, ...], ...]:
+    """Rules of the first refinement near the start of an open polygon, phantom points eliminated.
+
+    The polygon must be longer than the support of the rules, so that its ends do not meet. The
+    rules at its end are those of the mirrored mask, in reverse order.
+
+    Returns
+    -------
+    tuple of rows
+        Row m holds the exact weights of ``p_0, p_1, ...`` in the new point ``P_m``, all rows of
+        one length. Row 0 is the first point itself, which is carried along; the rows end before
+        the first ``P_m`` that follows the ordinary rule. For symmetric masks they hold at every
+        level; for asymmetric ones at the first, after which the phantom points are refined along.
+
+    Raises
+    ------
+    NoLimitError
+        For an asymmetric mask whose first point cannot be placed.
+    """
+    left, _ = reach(mask)
+    centre = _reflection_centre(mask)
+    # P_m reads p_j from j = ceil((m - end) / 2) on: the ordinary rule needs j >= 0, or, where
+    # e_0 takes the place of p_0, j >= 1.
+    first_ordinary = mask.end - 1 if mask.is_symmetric else mask.end + 1
+    rows = [{0: Fraction(1)}]
+    for m in range(1, first_ordinary):
+        row: dict[int, Fraction] = {}
+        for j in range(-left, (m - mask.start) // 2 + 1):
+            weight = mask[m - 2 * j]
+            if j > 0:
+                row[j] = row.get(j, Fraction(0)) + weight
+                continue
+            # p_j = 2 e_0 - p_{-j} beyond the end, and e_0 at it.
+            for k, share in centre.items():
+                row[k] = row.get(k, Fraction(0)) + (2 if j < 0 else 1) * weight * share
+            if j < 0:
+                row[-j] = row.get(-j, Fraction(0)) - weight
+        rows.append(row)
+    width = max((k for row in rows for k, weight in row.items() if weight), default=0) + 1
+    return tuple(tuple(row.get(k, Fraction(0)) for k in range(width)) for row in rows)
+
+
+def _reflection_centre(mask: Mask) -> dict[int, Fraction]:
+    """Exact weights of ``p_0, p_1, ...`` in the centre ``e_0`` of the odd reflection."""
+    if mask.is_symmetric:
+        return {0: Fraction(1)}
+    limit = dict(BasicLimitFunction(mask).limit_stencil().items())
+    zero = Fraction(0)
+    pivot = limit.get(0, zero) + 2 * sum((w for j, w in limit.items() if j < 0), zero)
+    if pivot == 0:
+        raise NoLimitError("The end rules have no solution for these parameters.")
+    far = max(max(limit), -min(limit))
+    centre = {k: (limit.get(-k, zero) - limit.get(k, zero)) / pivot for k in range(1, far + 1)}
+    return {0: 1 / pivot, **centre}
 
 
 def _end_weights(mask: Mask) -> NDArray[np.float64]:

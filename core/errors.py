@@ -17,6 +17,10 @@ class NoLimitError(NinepointError):
     """The scheme has no unique limit function: 1 is not a simple eigenvalue of its matrix."""
 
 
+class SmoothnessError(NinepointError):
+    """A derivative was asked for that the scheme is not proven to have."""
+
+
 class FileError(NinepointError):
     """A file that cannot be read or written as asked.
 

@@ -178,4 +178,5 @@ def _chord_distances(points: NDArray[np.float64], step: int) -> NDArray[np.float
     along = (inner * chord).sum(axis=-1)
     share = np.divide(along, length, out=np.zeros_like(along), where=length > 0)
     away = inner - np.clip(share, 0.0, 1.0)[..., None] * chord
-    return np.sqrt((away**2).sum(axis=-1).max(axis=(1, 2)))
+    squares: NDArray[np.float64] = (away**2).sum(axis=-1)
+    return np.asarray(np.sqrt(squares.max(axis=(1, 2))), dtype=np.float64)

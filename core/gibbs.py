@@ -153,8 +153,8 @@ def ramp_gibbs(mask: Mask) -> Gibbs:
 
 def _places(mask: Mask) -> NDArray[np.float64]:
     """Indices i of the control points that the cells j = start..end read, one row a cell."""
-    cell = np.arange(mask.start, mask.end + 1)
-    return cell[:, None] - mask.end + 1.0 + np.arange(mask.end - mask.start)
+    cell = np.arange(mask.start, mask.end + 1, dtype=np.float64)
+    return cell[:, None] - mask.end + 1 + np.arange(mask.end - mask.start, dtype=np.float64)
 
 
 @lru_cache(maxsize=MEMORY)

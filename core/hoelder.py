@@ -23,7 +23,6 @@ Found. Comput. Math. 13 (2013).
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import product
@@ -34,7 +33,7 @@ from numpy.typing import NDArray
 
 from core.basis import MEMORY
 from core.mask import Mask
-from core.polytope import INSIDE, invariant_polytope
+from core.polytope import INSIDE, Cancelled, invariant_polytope, never
 
 ROUNDING: Final = 1 + 1e-10
 """Factor on all bounds of rho that covers the rounding of norms of products."""
@@ -199,7 +198,7 @@ def _improved(radius: _Radius, words: list[tuple[int, ...]]) -> _Radius:
     return radius
 
 
-def exact_interval(mask: Mask, cancelled: Callable[[], bool] = lambda: False) -> HoelderInterval:
+def exact_interval(mask: Mask, cancelled: Cancelled = never) -> HoelderInterval:
     """Hölder interval as narrow as it gets: at most 3e-9 wide where an invariant polytope closes.
 
     If the product that gives the lower bound of rho is a maximal one, the orbit of its leading
@@ -235,7 +234,8 @@ def exact_interval(mask: Mask, cancelled: Callable[[], bool] = lambda: False) ->
 
 def _norms(products: NDArray[np.float64]) -> NDArray[np.float64]:
     """Frobenius norms: submultiplicative, and cheap for thousands of matrices."""
-    return np.sqrt(np.einsum("pij,pij->p", products, products))
+    squares: NDArray[np.float64] = np.einsum("pij,pij->p", products, products)
+    return np.sqrt(squares)
 
 
 @lru_cache(maxsize=MEMORY)
@@ -297,9 +297,9 @@ def _spectral_radius(
 @cache
 def _lyndon_words(longest: int) -> tuple[tuple[int, ...], ...]:
     """Binary words that are smaller than all their rotations: one for each primitive product."""
-    words = []
-    for length in range(1, longest + 1):
-        for word in product((0, 1), repeat=length):
-            if all(word < word[k:] + word[:k] for k in range(1, length)):
-                words.append(word)
-    return tuple(words)
+    return tuple(
+        word
+        for length in range(1, longest + 1)
+        for word in product((0, 1), repeat=length)
+        if all(word < word[k:] + word[:k] for k in range(1, length))
+    )

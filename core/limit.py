@@ -62,7 +62,8 @@ class LimitCurve:
         count = self.spans * 2**level
         if not self.closed and len(self.control_points):
             count += 1
-        return np.arange(count) / 2**level
+        parameters: NDArray[np.float64] = np.arange(count) / 2**level
+        return parameters
 
     def points(self, level: int) -> NDArray[np.float64]:
         """Exact points of the limit curve at ``t = k / 2^level`` (theory, section 6).
@@ -116,8 +117,10 @@ class LimitCurve:
         span = int(t)
         return span % self.spans if self.closed else span, t - span
 
-    def span_points(self, spans: slice | NDArray[np.intp], level: int) -> NDArray[np.float64]:
-        """Exact points of some spans, both ends included.
+    def span_points(
+        self, spans: slice | NDArray[np.intp], level: int, order: int = 0
+    ) -> NDArray[np.float64]:
+        """Exact points of some spans, both ends included; or derivatives with respect to t.
 
         Parameters
         ----------
@@ -125,23 +128,26 @@ class LimitCurve:
             Which spans ``[i, i + 1]``: a slice or an array of indices within ``range(self.spans)``.
         level
             Dyadic level, 0 to `MAX_LEVEL`.
+        order
+            Which derivative; 0 for the points. Only sensible up to the class of the scheme, which
+            `core.shape` makes sure of.
 
         Returns
         -------
         ndarray
-            Shape (k, 2^level + 1, 2): for each span the points at ``t = i + m / 2^level``. The last
-            point of a span is, up to rounding, the first of the next.
+            Shape (k, 2^level + 1, 2): for each span the values at ``t = i + m / 2^level``. The last
+            value of a span is, up to rounding, the first of the next.
         """
         if not 0 <= level <= MAX_LEVEL:
             raise ValueError(f"level must lie between 0 and {MAX_LEVEL}, not {level}")
         indices = np.arange(self.spans)[spans]
-        table = self._basis.table(level)
+        table = self._basis.table(level, order)
         windows = sliding_window_view(self.endless_points, len(table), axis=0)
         points = np.empty((len(indices), 2**level + 1, 2))
         points[:, :-1] = np.matmul(windows[indices], table).transpose(0, 2, 1)
         # The end t = i + 1 is read with the window of span i: the first column, one point on.
         points[:, -1] = windows[indices, :, 1:] @ table[:-1, 0]
-        if not self.closed:
+        if order == 0 and not self.closed:
             # The end rules hold up to rounding; a contour has to end exactly where it was told to.
             points[indices == 0, 0] = self.control_points[0]
             points[indices == self.spans - 1, -1] = self.control_points[-1]

@@ -15,6 +15,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+Cancelled = Callable[[], bool]
+"""Asked by long searches now and then; True ends them."""
+
 INSIDE: Final = 1 + 1e-8
 """A point of at most this norm counts as inside; the factor goes into the stated bound."""
 
@@ -23,6 +26,11 @@ _PIVOT: Final = 1e-12
 
 _MAX_PIVOTS: Final = 500
 """Pivots after which a linear program is given up; some ten are usual."""
+
+
+def never() -> bool:
+    """Answer of a search that nobody cancels."""
+    return False
 
 
 def polytope_norm(
@@ -91,7 +99,7 @@ def _solution(
 ) -> NDArray[np.float64]:
     """Coefficients of a point over a basis; the fallback where it is singular to rounding."""
     try:
-        return np.linalg.solve(columns, point)
+        return np.asarray(np.linalg.solve(columns, point), dtype=np.float64)
     except np.linalg.LinAlgError:
         return fallback
 
@@ -100,7 +108,7 @@ def invariant_polytope(
     matrices: NDArray[np.float64],
     seeds: NDArray[np.float64],
     max_vertices: int,
-    cancelled: Callable[[], bool] = lambda: False,
+    cancelled: Cancelled = never,
 ) -> bool:
     """Try to grow a symmetric polytope that all matrices map into itself.
 

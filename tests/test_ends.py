@@ -5,9 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.ends import end_points, extended, reach
+from core.ends import end_points, end_rules, extended, reach
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
+from core.refine import refine
 from oracles import convergent_members
 
 
@@ -78,3 +79,44 @@ def test_long_and_short_ways_to_the_end_points_agree():
     other[60:140] += 5.0
     np.testing.assert_array_equal(end_points(points, mask), end_points(other, mask))
     assert np.abs(end_points(points, mask) - points[[0, -1]]).max() > 0.01
+
+
+@given(convergent_members(), st.integers(0, 10**6))
+def test_the_end_rules_are_the_first_refinement_written_out(parameters, seed):
+    points = polygon(40, seed)
+    rows = end_rules(parameters.mask)
+    new = refine(points, parameters.mask, closed=False)
+    for m, row in enumerate(rows):
+        assert sum(row) == 1
+        weights = np.array([float(weight) for weight in row])
+        np.testing.assert_allclose(weights @ points[: len(row)], new[m], atol=1e-11)
+
+
+@given(convergent_members())
+def test_the_rule_after_the_end_rules_is_the_ordinary_one(parameters):
+    points = polygon(40)
+    mask = parameters.mask
+    m = len(end_rules(mask))
+    new = refine(points, mask, closed=False)
+    rule = mask.stencil(m % 2)
+    ordinary = sum(float(w) * points[m // 2 + j] for j, w in rule.items())
+    np.testing.assert_allclose(ordinary, new[m], atol=1e-11)
+
+
+def test_the_last_end_rule_differs_from_the_ordinary_one():
+    for name in ("Calm", "Tight", "Lean"):
+        mask = PRESETS[name].mask
+        rows = end_rules(mask)
+        m = len(rows) - 1
+        ordinary = {m // 2 + j: w for j, w in mask.stencil(m % 2).items() if w}
+        row = {j: w for j, w in enumerate(rows[-1]) if w}
+        assert row != ordinary
+
+
+def test_the_rules_at_the_far_end_are_those_of_the_mirrored_member():
+    parameters = PRESETS["Lean"]
+    points = polygon(40)
+    new = refine(points, parameters.mask, closed=False)[::-1]
+    for m, row in enumerate(end_rules(parameters.reversed.mask)):
+        weights = np.array([float(weight) for weight in row])
+        np.testing.assert_allclose(weights @ points[::-1][: len(row)], new[m], atol=1e-11)
