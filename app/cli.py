@@ -1,0 +1,316 @@
+"""The command line: `ninepoint [FILE]` opens the window, `ninepoint export` needs no screen.
+
+Qt, and what reads and writes files, is imported inside the commands: help and refusals are quick,
+and an export neither needs a screen nor Qt's libraries.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+from collections.abc import Sequence
+from io import TextIOWrapper
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, NoReturn
+
+import click
+
+from core.errors import NinepointError, ParameterError
+
+if TYPE_CHECKING:
+    from core.document import Document
+
+NAME: Final = "ninepoint"
+"""What the program is called on the command line."""
+
+USER_ERROR: Final = 2
+"""Exit status if the user can mend it: a file, an option, a full disk."""
+
+OUR_ERROR: Final = 1
+"""Exit status if the program is at fault."""
+
+INTERRUPTED: Final = 130
+"""Exit status after Ctrl+C, as of shells."""
+
+_WINDOW: Final = "window"
+"""Name of the command that a call without a command means."""
+
+_SIDES_PX: Final = range(200, 10_001)
+"""Admitted width and height of the window."""
+
+_EXAMPLES: Final = """\
+\b
+Examples:
+  ninepoint                            start with a ready shape
+  ninepoint wing.ninepoint             open a drawing
+  ninepoint --screenshot wing.png wing.ninepoint
+  ninepoint export wing.ninepoint wing.dxf
+  ninepoint export points.csv shape.svg --beta -1/2 --closed
+"""
+
+_EXPORT_EXAMPLES: Final = """\
+\b
+Examples:
+  ninepoint export wing.ninepoint wing.dxf
+  ninepoint export naca2412.dat wing.svg --tolerance 0.001
+  ninepoint export points.csv shape.svg --alpha 1/4 --beta -1/2 --gamma 1/4 --closed
+"""
+
+
+class _Commands(click.Group):
+    """The commands; a call that names none of them is one of the window's."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        own = (*self.commands, "--version", *ctx.help_option_names)
+        return super().parse_args(ctx, args if args and args[0] in own else [_WINDOW, *args])
+
+    def format_usage(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        formatter.write_usage(NAME, "[OPTIONS] [FILE]")
+        formatter.write_usage(NAME, "export [OPTIONS] IN OUT", prefix=" " * len("Usage: "))
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        options = [*self.commands[_WINDOW].params, *self.get_params(ctx)]
+        records = (option.get_help_record(ctx) for option in options if option.name != "files")
+        with formatter.section("Options"):
+            formatter.write_dl(list(dict.fromkeys(filter(None, records))))
+        self.format_commands(ctx, formatter)
+
+
+def main(args: Sequence[str] | None = None) -> NoReturn:
+    """Run the command line and end the process.
+
+    Parameters
+    ----------
+    args
+        The arguments, those of the process by default.
+
+    Raises
+    ------
+    SystemExit
+        Always: with status 0, `USER_ERROR`, `OUR_ERROR` or `INTERRUPTED`. What went wrong is a
+        sentence on the error stream, never a traceback.
+    ImportError
+        If Qt lacks libraries of the system; `app.__main__` installs them or says which.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # names of files may hold what it cannot encode
+            stream.reconfigure(errors="backslashreplace")
+    sys.exit(_status(args))
+
+
+def _status(args: Sequence[str] | None) -> int:
+    try:
+        result = _commands.main(args, prog_name=NAME, standalone_mode=False)
+    except click.UsageError as error:
+        command = error.ctx.info_name if error.ctx else None
+        place = f"{NAME} {command}" if command in _commands.commands else NAME
+        help_of = place.removesuffix(f" {_WINDOW}")
+        _tell(f"{error.format_message()} ({help_of} --help shows what is possible.)")
+        return USER_ERROR
+    except (click.Abort, KeyboardInterrupt):
+        _tell("stopped.")
+        return INTERRUPTED
+    except NinepointError as error:
+        _tell(str(error))
+        return USER_ERROR
+    except MemoryError:
+        _tell("there is not enough memory for this.")
+        return USER_ERROR
+    except OSError as error:
+        if error.filename is None:  # the answer finds no reader, or no room: say no more there
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _tell(f"{error.filename or 'output'}: {error.strerror or type(error).__name__}.")
+        return USER_ERROR
+    except ImportError:
+        raise
+    except Exception as error:  # the last resort of a program that shows no traceback
+        _tell(f"this is a fault of the program, please report it: {type(error).__name__}: {error}")
+        return OUR_ERROR
+    return result if isinstance(result, int) else 0
+
+
+def _tell(sentence: str) -> None:
+    click.echo(f"{NAME}: {sentence}", err=True)
+
+
+def _show_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and not ctx.resilient_parsing:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            number = version(NAME)
+        except PackageNotFoundError:  # a checkout that was not installed
+            number = "(not installed)"
+        click.echo(f"{NAME} {number}")
+        ctx.exit()
+
+
+def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and not ctx.resilient_parsing:
+        click.echo((ctx.parent or ctx).get_help())
+        ctx.exit()
+
+
+def _size(text: str | None) -> tuple[int, int] | None:
+    """Read a size such as "1280x800"."""
+    if text is None:
+        return None
+    found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text, re.ASCII | re.IGNORECASE)
+    if not found or not all(int(side) in _SIDES_PX for side in found.groups()):
+        raise click.BadParameter(
+            f"{text!r} is not a size such as 1280x800, with sides of {_SIDES_PX[0]} to"
+            f" {_SIDES_PX[-1]} pixels."
+        )
+    return int(found[1]), int(found[2])
+
+
+@click.group(cls=_Commands, epilog=_EXAMPLES)
+@click.option(
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_show_version,
+    help="Show the version and exit.",
+)
+def _commands() -> None:
+    """Draw curves with the three-parameter 9-point subdivision scheme.
+
+    FILE is a .ninepoint drawing, or points in two columns (.csv, .tsv, .txt, .dat).
+    """
+
+
+@_commands.command(_WINDOW, hidden=True, add_help_option=False)
+@click.argument("files", metavar="[FILE]", nargs=-1, type=click.Path(path_type=Path))
+@click.option(
+    "--screenshot",
+    metavar="PNG",
+    type=click.Path(path_type=Path),
+    help="Draw the window into a picture and end; no screen is needed.",
+)
+@click.option(
+    "--size",
+    metavar="WxH",
+    callback=lambda _, __, value: _size(value),
+    help="Size of the window in pixels, such as 1280x800.",
+)
+@click.option(
+    "--theme",
+    type=click.Choice(["system", "light", "dark"]),
+    default="system",
+    help="Colours of the window; those of the system by default.",
+)
+@click.option(
+    "--help",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_show_help,
+    help="Show this message and exit.",
+)
+def _open_window(
+    files: tuple[Path, ...],
+    screenshot: Path | None,
+    size: tuple[int, int] | None,
+    theme: str,
+) -> int:
+    path = _only_file(files)
+    if path is not None:
+        from core.formats import open_document
+
+        open_document(path)  # a bad file is refused here, before there is a window
+    if screenshot is None:
+        from app.bootstrap import require_display
+
+        require_display()
+    else:
+        if screenshot.suffix.lower() != ".png":
+            raise click.UsageError(f"The picture is a PNG file; {screenshot} must end in .png.")
+        # The same picture with and without a screen, and no window that flashes up.
+        os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    from app.window import run
+
+    return run(path, screenshot, size, theme)
+
+
+def _only_file(files: tuple[Path, ...]) -> Path | None:
+    """Return the file to open, or say what is wrong with the words that were given for it."""
+    if not files:
+        return None
+    first = files[0]
+    if not first.suffix and not first.exists():  # a mistyped command rather than a file
+        raise click.UsageError(f"There is no file and no command {str(first)!r}.")
+    if len(files) > 1:
+        raise click.UsageError("Only one FILE can be opened.")
+    return first
+
+
+@_commands.command("export", epilog=_EXPORT_EXAMPLES)
+@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
+@click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
+@click.option(
+    "--tolerance",
+    metavar="MM",
+    default="0.01",
+    show_default=True,
+    help="Largest distance between the exact curve and what is written, in mm.",
+)
+@click.option("--alpha", metavar="NUMBER", help="First parameter, such as 0.25 or 1/4.")
+@click.option("--beta", metavar="NUMBER", help="Second parameter.")
+@click.option("--gamma", metavar="NUMBER", help="Third parameter.")
+@click.option(
+    "--neighbours",
+    type=click.Choice(["translated", "mirrored"]),
+    help="Which neighbours the odd rule combines.",
+)
+@click.option(
+    "--closed/--open",
+    default=None,
+    help="Close or open all curves; by default the file decides.",
+)
+def _export(
+    source: Path,
+    target: Path,
+    tolerance: str,
+    alpha: str | None,
+    beta: str | None,
+    gamma: str | None,
+    neighbours: str | None,
+    closed: bool | None,
+) -> None:
+    """Write the curves of IN into OUT for other programs, at true size.
+
+    IN is a .ninepoint drawing, or points in two columns (.csv, .tsv, .txt, .dat), in mm. OUT
+    ends in .svg or .dxf, which chooses the format; an existing OUT is replaced, whole or not at
+    all. Parameters that are not given are those of the drawing, or Calm (0, -1/2, 0) for points.
+    Points are closed if the last one repeats the first.
+    """
+    from core.family import exact
+    from core.formats import export, open_document
+
+    tolerance_mm = float(exact(tolerance, "--tolerance"))
+    document = open_document(source, closed)
+    changes = {"alpha": alpha, "beta": beta, "gamma": gamma, "neighbours": neighbours}
+    document = _with_parameters(document, {k: v for k, v in changes.items() if v is not None})
+    if target.exists() and target.samefile(source):
+        raise click.UsageError("IN and OUT are the same file.")
+    report = export(document, target, tolerance_mm)
+    click.echo(f"{target}: {report.summary}")
+    left_out = len(document.curves) - report.contours
+    if left_out:
+        _tell(f"{left_out} of the curves had no extent and are left out.")
+
+
+def _with_parameters(document: Document, changes: dict[str, str]) -> Document:
+    """Return the document with those parameters changed that were given as options."""
+    from core.family import Parameters
+
+    present = document.parameters
+    values: dict[str, Any] = {
+        name: getattr(present, name) for name in ("alpha", "beta", "gamma", "neighbours")
+    }
+    try:
+        return document.with_parameters(Parameters(**(values | changes)))
+    except ParameterError as error:
+        raise ParameterError(f"--{error}") from error  # the message begins with the name
