@@ -8,8 +8,8 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen, QPixmap
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPixmap
 
 from app.camera import Camera
 from app.style import SIZES, Palette, color
@@ -19,6 +19,16 @@ LABEL_POINTS: Final = 7.5
 
 LABEL_GAP_PX: Final = 14.0
 """Least room between two numbers on a ruler."""
+
+LABEL_INDENT_PX: Final = 3.0
+"""Room between a tick and its number."""
+
+SHORT_TICK_PX: Final = 5.0
+LONG_TICK_PX: Final = 12.0
+"""Lengths of the ticks on the rulers, plain and labelled."""
+
+AXIS_OPACITY: Final = 0.55
+"""The lines through the origin are lines of the grid, only stronger."""
 
 _MINOR: Final = {1: (10, 5, 2), 2: (4, 2), 5: (5,)}
 """Parts that a step of 1, 2 or 5 may be cut into, so that the small steps are round as well."""
@@ -104,47 +114,37 @@ def view_step(camera: Camera, metrics: QFontMetricsF) -> Step:
 def paint_grid(painter: QPainter, camera: Camera, palette: Palette, step: Step) -> None:
     """Draw the lines of the grid; those through the origin are the axes."""
     low, high = camera.rectangle_mm()
-    ratio = painter.device().devicePixelRatioF()
-    for axis in (0, 1):
+    for axis, length in ((0, camera.height), (1, camera.width)):
         minor, major = ticks(float(low[axis]), float(high[axis]), step)
-        labelled = np.array(major) * step.size_mm
-        for places, name in ((minor, palette.grid), (labelled, palette.grid_major)):
-            painter.setPen(_hairline(name))
-            _lines(painter, camera, axis, places, ratio)
-        if low[axis] <= 0 <= high[axis]:
-            painter.setPen(_hairline(palette.axis, 0.55))
-            _lines(painter, camera, axis, np.zeros(1), ratio)
+        for places, ink in (
+            (minor, color(palette.grid)),
+            (np.array(major) * step.size_mm, color(palette.grid_major)),
+            (np.zeros(int(low[axis] <= 0 <= high[axis])), color(palette.axis, AXIS_OPACITY)),
+        ):
+            for place in _axis_pixels(camera, axis, places):
+                _rule(painter, axis, place, 0, length, ink)
 
 
 def paint_rulers(painter: QPainter, camera: Camera, palette: Palette, step: Step) -> None:
     """Draw the rulers along the upper and the left edge, with the unit in the corner."""
     low, high = camera.rectangle_mm()
     breadth = SIZES.ruler
-    painter.fillRect(QRectF(0, 0, camera.width, breadth), color(palette.ruler_background))
-    painter.fillRect(QRectF(0, 0, breadth, camera.height), color(palette.ruler_background))
-    font = ruler_font(painter.font())
-    painter.setFont(font)
-    ratio = painter.device().devicePixelRatioF()
-    for axis in (0, 1):
-        minor, major = ticks(float(low[axis]), float(high[axis]), step)
-        painter.setPen(_hairline(palette.ruler_line))
-        for place in _crisp(_axis_pixels(camera, axis, minor), ratio):
-            _ruler_line(painter, axis, place, breadth - 5.0, breadth)
-        for count in major:
-            place = _axis_pixels(camera, axis, np.array([count * step.size_mm]))
-            at = float(_crisp(place, ratio)[0])
-            painter.setPen(_hairline(palette.ruler_line))
-            _ruler_line(painter, axis, at, breadth - 12.0, breadth)
-            painter.setPen(color(palette.ruler_text))
-            _ruler_label(painter, axis, at, step.label(count))
-    painter.setPen(_hairline(palette.ruler_line))
-    edge = float(_crisp(np.array([breadth - 1.0]), ratio)[0])
-    painter.drawLine(QPointF(breadth, edge), QPointF(camera.width, edge))
-    painter.drawLine(QPointF(edge, breadth), QPointF(edge, camera.height))
-    corner = QRectF(0, 0, breadth, breadth)
-    painter.fillRect(corner, color(palette.ruler_background))
+    line, ground = color(palette.ruler_line), color(palette.ruler_background)
+    painter.setFont(ruler_font(painter.font()))
     painter.setPen(color(palette.ruler_text))
-    painter.drawText(corner, Qt.AlignmentFlag.AlignCenter, "mm")
+    for axis, length in ((0, camera.width), (1, camera.height)):
+        painter.fillRect(_box(axis, 0, 0, length, breadth), ground)
+        minor, major = ticks(float(low[axis]), float(high[axis]), step)
+        for place in _axis_pixels(camera, axis, minor):
+            _rule(painter, axis, place, breadth - SHORT_TICK_PX, breadth, line)
+        labelled = _axis_pixels(camera, axis, np.array(major) * step.size_mm)
+        for count, place in zip(major, labelled, strict=True):
+            _rule(painter, axis, place, breadth - LONG_TICK_PX, breadth, line)
+            _label(painter, axis, place, step.label(count))
+    painter.fillRect(QRectF(0, 0, breadth, breadth), ground)
+    _rule(painter, 1, breadth - 1, breadth - 1, camera.width, line)
+    _rule(painter, 0, breadth - 1, breadth - 1, camera.height, line)
+    painter.drawText(QRectF(0, 0, breadth, breadth), Qt.AlignmentFlag.AlignCenter, "mm")
 
 
 class Background:
@@ -185,11 +185,6 @@ class Background:
         return self._pixmap
 
 
-def _hairline(name: str, opacity: float = 1.0) -> QPen:
-    """Line of one device-independent pixel."""
-    return QPen(color(name, opacity), 1.0)
-
-
 def _axis_pixels(
     camera: Camera, axis: int, places_mm: NDArray[np.float64]
 ) -> NDArray[np.float64]:
@@ -198,38 +193,28 @@ def _axis_pixels(
     return camera.to_pixels(points)[:, axis]
 
 
-def _crisp(places_px: NDArray[np.float64], ratio: float) -> NDArray[np.float64]:
-    """Nearest places where a line one logical pixel wide covers whole device pixels."""
-    shift = 0.5 * round(ratio) / ratio
-    return np.asarray(np.floor(places_px * ratio) / ratio + shift)
-
-
-def _lines(
-    painter: QPainter, camera: Camera, axis: int, places: NDArray[np.float64], ratio: float
-) -> None:
-    for place in _crisp(_axis_pixels(camera, axis, places), ratio):
-        if axis == 0:
-            painter.drawLine(QPointF(place, 0), QPointF(place, camera.height))
-        else:
-            painter.drawLine(QPointF(0, place), QPointF(camera.width, place))
-
-
-def _ruler_line(painter: QPainter, axis: int, place: float, begin: float, end: float) -> None:
+def _box(axis: int, along: float, across: float, length: float, breadth: float) -> QRectF:
+    """Return a rectangle given along and across the ruler of an axis."""
     if axis == 0:
-        painter.drawLine(QPointF(place, begin), QPointF(place, end))
-    else:
-        painter.drawLine(QPointF(begin, place), QPointF(end, place))
+        return QRectF(along, across, length, breadth)
+    return QRectF(across, along, breadth, length)
 
 
-def _ruler_label(painter: QPainter, axis: int, place: float, text: str) -> None:
+def _rule(
+    painter: QPainter, axis: int, place: float, begin: float, end: float, ink: QColor
+) -> None:
+    """Draw a line across an axis that covers whole device pixels, so that it is crisp."""
+    ratio = painter.device().devicePixelRatioF()
+    crisp = math.floor(place * ratio) / ratio
+    painter.fillRect(_box(axis, crisp, begin, round(ratio) / ratio, end - begin), ink)
+
+
+def _label(painter: QPainter, axis: int, place: float, text: str) -> None:
     """Write a number beside its tick; on the left ruler it reads upwards."""
     flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextDontClip
-    box = QRectF(3, 1, 1, 1)
     painter.save()
-    if axis == 0:
-        painter.translate(place, 1)
-    else:
-        painter.translate(1, place)
+    painter.translate(*((place, 1.0) if axis == 0 else (1.0, place)))
+    if axis == 1:
         painter.rotate(-90)
-    painter.drawText(box, int(flags), text)
+    painter.drawText(QRectF(LABEL_INDENT_PX, 0, 1, 1), int(flags), text)
     painter.restore()

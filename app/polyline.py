@@ -52,7 +52,7 @@ def runs(vertices: NDArray[np.float64], limit: float = SAFE_PX) -> list[NDArray[
         return [vertices]
     start, way = vertices[:-1], np.diff(vertices, axis=0)
     # Liang and Barsky: the part of each segment within the square is enter <= s <= leave.
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         low, high = (-limit - start) / way, (limit - start) / way
     still = way == 0
     outside = still & (np.abs(start) > limit)

@@ -17,7 +17,7 @@ from app.camera import Camera
 from app.handles import CurveHit, PointHit
 from app.polyline import closed_up
 from app.style import SIZES
-from core.detail import detailed, span_levels, spans_within
+from core.detail import detailed, span_levels
 from core.document import Curve, Document
 from core.errors import NoLimitError
 from core.family import Parameters
@@ -197,10 +197,7 @@ class Scene:
             t, vertices = np.zeros(0), np.zeros((0, 2))
         else:
             tolerance = TOLERANCE_PX / self._ratio * camera.pixel_mm
-            levels = span_levels(limit, tolerance, BUDGET)
-            if levels.any():
-                # What is out of view needs only to stay there.
-                levels = np.where(spans_within(limit, *camera.rectangle_mm()), levels, 0)
+            levels = span_levels(limit, tolerance, BUDGET, camera.rectangle_mm())
             t, vertices = detailed(limit, levels)
         points_px = camera.to_pixels(curve.points)
         return Drawn(curve, limit, t, camera.to_pixels(vertices), points_px)

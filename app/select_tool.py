@@ -113,8 +113,10 @@ class SelectTool(DragTool):
         session.commit()
         session.edit(document, "Insert point")
         session.select(Selection(frozenset({key}), key[0]))
-        # The button is still down: the new point can be dragged at once.
-        self.press(pointer)
+        hit = self._hit_point(pointer)
+        if hit is not None and hit.key == key:
+            # The button is still down: the new point can be dragged at once.
+            self.press(pointer)
 
     def leave(self) -> None:
         if self.state is State.IDLE:

@@ -80,7 +80,12 @@ def amplification(mask: Mask) -> float:
     return float(np.abs(BasicLimitFunction(mask).table(3)).sum(axis=0).max())
 
 
-def span_levels(curve: LimitCurve, tolerance: float, budget: int) -> NDArray[np.intp]:
+def span_levels(
+    curve: LimitCurve,
+    tolerance: float,
+    budget: int,
+    view: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None,
+) -> NDArray[np.intp]:
     """Dyadic level of each span at which its chords keep a tolerance.
 
     Parameters
@@ -92,6 +97,9 @@ def span_levels(curve: LimitCurve, tolerance: float, budget: int) -> NDArray[np.
     budget
         Number of chords that is not exceeded, unless the curve has more spans: the tolerance
         gives way.
+    view
+        Two corners of the rectangle that is seen, lower left and upper right; spans out of it
+        get level 0, and the tolerance does not hold there. Without it everything is seen.
 
     Returns
     -------
@@ -105,6 +113,8 @@ def span_levels(curve: LimitCurve, tolerance: float, budget: int) -> NDArray[np.
     windows = sliding_window_view(bends, profile.shape[1])[: curve.spans]
     errors = windows @ profile.T
     levels = np.asarray((errors[:, :-1] > tolerance).sum(axis=1), dtype=np.intp)
+    if view is not None and levels.any():
+        levels = np.where(spans_within(curve, *view), levels, 0)
     while levels.any() and int((1 << levels).sum()) > budget:
         levels = np.maximum(levels - 1, 0)
     return levels
@@ -162,7 +172,7 @@ def detailed(
     count = int(first[-1]) + (not curve.closed)
     parameters = np.full(count, float(curve.spans))
     points = np.empty((count, 2))
-    for level in np.unique(levels):
+    for level in np.flatnonzero(np.bincount(levels)):  # np.unique loads numpy.ma at start-up
         spans = np.flatnonzero(levels == level)
         within = np.arange(1 << level)
         places = first[spans][:, None] + within
@@ -173,9 +183,7 @@ def detailed(
     return parameters, points
 
 
-def _running(
-    extreme: np.ufunc, values: NDArray[np.float64], size: int
-) -> NDArray[np.float64]:
+def _running(extreme: np.ufunc, values: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     """Extreme of each ``size`` consecutive rows, by doubling: log2(size) passes."""
     reach = 1
     while reach < size:

@@ -30,11 +30,11 @@ DENSE = 8
 """Level that stands for the curve itself; its own chords are off by less than 1e-5 here."""
 
 
-def shape(count: int = 24) -> NDArray[np.float64]:
+def shape(count: int = 24, noise: float = 8.0) -> NDArray[np.float64]:
     rng = np.random.default_rng(7)
     angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
     circle = 100 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return circle + rng.normal(0, 8, (count, 2))
+    return circle + rng.normal(0, noise, (count, 2))
 
 
 def deviation(curve: LimitCurve, levels: NDArray[np.intp]) -> float:
@@ -75,8 +75,7 @@ def test_the_bound_holds_within_the_useful_range(
 
 
 def test_a_sharp_point_is_not_paid_for_by_the_whole_curve() -> None:
-    angle = np.linspace(0, 2 * np.pi, 1000, endpoint=False)
-    points = 300 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    points = 3 * shape(1000, noise=0.0)
     points[500] += (40, 30)
     curve = LimitCurve(points, PRESETS["Calm"].mask, True)
     levels = span_levels(curve, 0.25, budget=10**6)
@@ -89,6 +88,16 @@ def test_the_budget_holds() -> None:
     assert (1 << span_levels(curve, 0.001, budget=10**9)).sum() > 3000
     assert (1 << span_levels(curve, 0.001, budget=3000)).sum() <= 3000
     assert (span_levels(curve, 0.001, budget=10) == 0).all()
+
+
+def test_the_budget_is_spent_on_what_is_seen() -> None:
+    curve = LimitCurve(shape(200, noise=0.0) * 1000, PRESETS["Calm"].mask, True)
+    place = curve.at(40.5)
+    view = place - 10.0, place + 10.0
+    levels = span_levels(curve, 0.001, 4000, view)
+    assert levels[40] == span_levels(curve, 0.001, 10**9)[40]
+    assert (levels == 0).sum() > 150
+    assert (1 << levels).sum() <= 4000
 
 
 @members

@@ -1,0 +1,159 @@
+"""What is drawn is the curve, to a quarter of a pixel, and is computed only when needed."""
+
+import numpy as np
+import pytest
+
+from app.camera import Camera
+from app.scene import BUDGET, FAINT, NOTHING, Overlay, Scene
+from app.style import SIZES
+from core.document import Curve, Document
+from core.family import PRESETS, Parameters
+from mouse import BOAT, boat, by
+
+CAMERA = Camera(60, 30, 5.0, 900, 600)
+
+
+def drawn(document, camera=CAMERA, origin=None, overlay=NOTHING, scene=None):
+    scene = Scene() if scene is None else scene
+    scene.update(document, document if origin is None else origin, camera, 1.0, overlay)
+    return scene
+
+
+def away(polyline, places):
+    """Distance of each place from a polyline: a slow oracle."""
+    start, way = polyline[:-1], np.diff(polyline, axis=0)
+    length = np.maximum((way**2).sum(axis=1), 1e-300)
+    share = np.clip((way * (places[:, None] - start)).sum(axis=2) / length, 0, 1)
+    feet = start + share[..., None] * way
+    return np.hypot(*(feet - places[:, None]).transpose(2, 0, 1)).min(axis=1)
+
+
+@pytest.mark.parametrize("member", PRESETS)
+@pytest.mark.parametrize("scale", [0.1, 5.0, 200.0])
+@pytest.mark.parametrize("closed", [True, False])
+def test_the_drawn_curve_is_the_curve_to_a_quarter_pixel(member, scale, closed):
+    document = Document((Curve(BOAT, closed),), PRESETS[member])
+    middle = document.curves[0].limit(document.parameters).at(5.2)
+    camera = Camera(*middle, scale, 900, 600)
+    outline = drawn(document, camera).curves[0].outline_px
+    exact = camera.to_pixels(document.curves[0].limit(document.parameters).points(10))
+    seen = ((exact >= 0) & (exact <= (900, 600))).all(axis=1)
+    assert seen.sum() > 10
+    assert away(outline, exact[seen]).max() <= 0.25
+
+
+def test_what_is_out_of_view_costs_little():
+    near = drawn(boat(), Camera(60, 30, 500.0, 900, 600)).curves[0]
+    assert len(near.vertices_px) <= BUDGET
+    elsewhere = drawn(boat(), Camera(1e6, 0, 500.0, 900, 600)).curves[0]
+    assert len(elsewhere.vertices_px) == 8
+
+
+def test_curves_that_did_not_change_are_drawn_again_as_they_are():
+    document = Document((Curve(BOAT), Curve([(0, 0), (5, 0), (5, 5)])))
+    scene = drawn(document)
+    first, second = scene.curves
+    changed = document.with_curve(0, document.curves[0].moved([2], (100, 0)))
+    drawn(changed, scene=scene)
+    assert scene.curves[0] is not first
+    assert scene.curves[1] is second
+
+
+def test_a_move_of_the_view_keeps_the_limit_curve():
+    scene = drawn(boat())
+    document = Document((Curve(BOAT),))
+    scene = drawn(document)
+    limit = scene.curves[0].limit
+    drawn(document, CAMERA.moved(10, 0), scene=scene)
+    assert scene.curves[0].limit is limit
+    assert scene.curves[0].points_px[0, 0] == pytest.approx(CAMERA.to_pixels(BOAT[0])[0] + 10)
+
+
+def test_the_ghost_is_the_part_of_the_old_shape_that_changed():
+    count = 60
+    angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    circle = Curve(50 * np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+    origin = Document((circle,))
+    now = origin.with_curve(0, circle.moved([30], (-70, 0)))
+    camera = Camera(0, 0, 5.0, 900, 600)
+    scene = drawn(now, camera, origin)
+    (ghost,) = scene.ghosts_px
+    exact = camera.to_pixels(circle.limit(origin.parameters).points(5))
+    # The 7-point member reaches 13/2 spans, so the ghost runs from t = 23 to 37.
+    assert away(ghost, exact[24 * 32 : 36 * 32]).max() < 0.3
+    assert away(ghost, exact[: 20 * 32]).min() > 5
+    assert drawn(now, camera, now).ghosts_px == ()
+
+
+def test_the_ghost_of_other_parameters_is_the_whole_old_shape():
+    origin = boat()
+    scene = drawn(origin.with_parameters(PRESETS["Lagrange"]), CAMERA, origin)
+    (ghost,) = scene.ghosts_px
+    np.testing.assert_array_equal(ghost, drawn(origin).curves[0].outline_px)
+
+
+def test_the_ribbon_is_as_broad_as_the_curve_follows_the_hand():
+    document = boat()
+    weights = np.zeros(8)
+    weights[2] = 1.0
+    scene = drawn(document, overlay=Overlay(influences=((0, weights),)))
+    ribbon = np.concatenate(scene.ribbons_px)
+    curve = document.curves[0]
+    moved = document.with_curve(0, curve.moved([2], curve.points[2] + by(0.0, 1.0)))
+    parameters = document.parameters
+    follows = (moved.curves[0].limit(parameters).at(2.0) - curve.limit(parameters).at(2.0))[1]
+    place = CAMERA.to_pixels(curve.limit(parameters).at(2.0))
+    nearest = np.hypot(*(ribbon - place).T).min()
+    assert nearest == pytest.approx(SIZES.ribbon_width * follows, rel=0.02)
+
+
+def test_all_weights_1_give_a_ribbon_of_full_breadth_all_around():
+    scene = drawn(boat(), overlay=Overlay(influences=((0, np.ones(8)),)))
+    (ribbon,) = scene.ribbons_px
+    outline = drawn(boat()).curves[0].outline_px
+    assert away(outline, ribbon).min() == pytest.approx(SIZES.ribbon_width, abs=0.5)
+
+
+def test_a_weak_influence_is_not_drawn():
+    weights = np.zeros(8)
+    weights[0] = FAINT / 2
+    assert drawn(boat(), overlay=Overlay(influences=((0, weights),))).ribbons_px == ()
+
+
+@pytest.mark.parametrize("count", [0, 1, 2])
+@pytest.mark.parametrize("closed", [True, False])
+def test_few_points(count, closed):
+    curve = Curve(BOAT[:count], closed)
+    scene = drawn(Document((curve,)), overlay=Overlay(influences=((0, np.ones(count)),)))
+    assert len(scene.curves[0].points_px) == count
+    if count == 2:
+        outline = scene.curves[0].outline_px
+        np.testing.assert_allclose(outline[[0, -1]], scene.curves[0].points_px)
+
+
+@pytest.mark.parametrize("neighbours", ["translated", "mirrored"])
+def test_absurd_parameters_stay_finite(neighbours):
+    document = boat().with_parameters(Parameters(100, 100, 100, neighbours))
+    scene = drawn(document, origin=boat(), overlay=Overlay(influences=((0, np.ones(8)),)))
+    for part in (scene.curves[0].vertices_px, *scene.ribbons_px, *scene.ghosts_px):
+        assert np.isfinite(part).all()
+    assert len(scene.curves[0].vertices_px) <= BUDGET
+
+
+def test_a_scheme_without_limit_has_points_but_no_curve(monkeypatch):
+    from core.errors import NoLimitError
+
+    def refuse(self, parameters):
+        raise NoLimitError("no limit")
+
+    monkeypatch.setattr(Curve, "limit", refuse)
+    scene = drawn(boat())
+    assert not scene.has_limit
+    assert len(scene.curves[0].vertices_px) == 0
+    assert len(scene.curves[0].points_px) == 8
+
+
+def test_overlays_resemble_each_other_by_what_they_show():
+    assert NOTHING.resembles(Overlay())
+    assert not NOTHING.resembles(Overlay(preview=boat().curves[0]))
+    assert not NOTHING.resembles(Overlay(rubber_band=(np.zeros(2), np.ones(2))))
