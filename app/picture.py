@@ -32,13 +32,17 @@ _RING_GAP: Final = 3.5
 
 
 def pen(name: str, width: float, opacity: float = 1.0) -> QPen:
-    """Solid pen with round caps and joins, so that runs of a curve meet without a trace."""
+    """Solid pen for curves and lines; its caps are round, so that the runs of a curve meet.
+
+    Its joins are mitred: at the blunt corners of a curve's chords Qt's round joins blacken single
+    pixels where the curve runs level (measured: coverage off by 0.46, mitred by 0.21).
+    """
     return QPen(
         color(name, opacity),
         width,
         Qt.PenStyle.SolidLine,
         Qt.PenCapStyle.RoundCap,
-        Qt.PenJoinStyle.RoundJoin,
+        Qt.PenJoinStyle.MiterJoin,
     )
 
 

@@ -122,6 +122,15 @@ def test_ghost_and_influence_are_seen_in_a_drag_only(canvas, mouse):
     assert canvas.scene.ghosts_px == ()
 
 
+def test_a_curve_that_runs_level_has_no_blot(canvas):
+    canvas.show_polygon = canvas.show_grid = False
+    image = picture(canvas)
+    x, y = (int(v) for v in Mouse(canvas).on_curve(5.0))
+    for row in range(y - 3, y + 4):
+        line = [image.pixelColor(x + k, row).lightness() for k in range(-5, 6)]
+        assert np.abs(np.diff(line)).max() < 60
+
+
 def test_a_crowd_of_points_becomes_dots(qtbot):
     angle = np.linspace(0, 2 * np.pi, 3000, endpoint=False)
     crowd = Document((Curve(100 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)),))
