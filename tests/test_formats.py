@@ -73,7 +73,13 @@ def test_the_report_tells_what_was_written(tmp_path, suffix):
 
 @pytest.mark.parametrize(
     ("contours", "closed", "kind"),
-    [(1, 1, "closed"), (1, 0, "open"), (3, 2, "3 contours, 2 of them closed")],
+    [
+        (1, 1, "closed"),
+        (1, 0, "open"),
+        (3, 3, "3 closed contours"),
+        (3, 0, "3 open contours"),
+        (3, 2, "3 contours, 2 of them closed"),
+    ],
 )
 def test_the_summary_is_one_line(tmp_path, contours, closed, kind):
     report = ExportReport(tmp_path, 200, 24.019, contours, closed, 1312, 0.00971)

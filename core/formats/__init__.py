@@ -72,6 +72,8 @@ class ExportReport:
         """One line: "200.00 x 24.02 mm, closed, 312 vertices, deviation <= 0.0098 mm"."""
         if self.contours == 1:
             kind = "closed" if self.closed_contours else "open"
+        elif self.closed_contours in (0, self.contours):
+            kind = f"{self.contours} {'closed' if self.closed_contours else 'open'} contours"
         else:
             kind = f"{self.contours} contours, {self.closed_contours} of them closed"
         return (

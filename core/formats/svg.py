@@ -4,13 +4,15 @@ What is written
 ---------------
 One ``path`` for each contour, absolute M, L and Z, in millimetres: the user unit is 1 mm, set by
 width, height and viewBox together. No transforms; y points down in SVG, so it is flipped in the
-coordinates. The page is the box of the ink, the contours' box with half a stroke around it: no
-line is cut at the page's edge, and the page is not larger than what is on it. The path's own
-extents are those of the contours. The same contours give the same bytes.
+coordinates. The page is exactly the contours' box, so that every program shows the part's true
+size as that of the page; at its edge a viewer that clips shows half of the stroke. Inkscape is
+asked for a hairline, which adds nothing to its bounding boxes. The same contours give the same
+bytes.
 """
 
 from __future__ import annotations
 
+import re
 from html import escape
 from typing import Final
 
@@ -48,16 +50,19 @@ def encode(contours: Contours, title: str) -> bytes:
     """
     places = contours.decimals
     low, high = contours.low, contours.high
-    corner = np.array([low[0], high[1]])
-    width, height = (_decimal(side + STROKE_MM, places) for side in (high - low).tolist())
+    # A straight line along an axis would have a page without a height, which nobody can show.
+    margin = np.where(high - low > 0, 0.0, STROKE_MM / 2)
+    origin = np.array([low[0], high[1]]) + margin * (-1.0, 1.0)
+    width, height = (_decimal(side, places) for side in (high - low + 2 * margin).tolist())
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         '<svg xmlns="http://www.w3.org/2000/svg" version="1.1"',
-        f'     width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">',
+        f'     width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}"',
+        '     overflow="visible">',
         f"<title>{_text(title)}</title>",
     ]
     for name, line in zip(contours.names, contours.polylines, strict=True):
-        path = _path(line, corner, places)
+        path = _path(line, origin, places)
         if len(path) > MAX_PATH_BYTES:
             raise NinepointError(
                 f"The contour {name!r} needs {len(line.points):,} vertices, more than SVG readers"
@@ -65,15 +70,16 @@ def encode(contours: Contours, title: str) -> bytes:
             )
         lines.append(
             f'<path fill="none" stroke="#000000" stroke-width="{STROKE_MM:g}"'
-            f' stroke-linejoin="round" d="{path}"><title>{_text(name)}</title></path>'
+            ' stroke-linejoin="round" style="-inkscape-stroke:hairline"'
+            f' d="{path}"><title>{_text(name)}</title></path>'
         )
     lines.append("</svg>\n")
     return "\n".join(lines).encode()
 
 
-def _path(line: Polyline, corner: NDArray[np.float64], places: int) -> str:
-    """Path data of a contour, the page's upper left corner being half a stroke from ``corner``."""
-    page = (line.points - corner) * (1.0, -1.0) + STROKE_MM / 2
+def _path(line: Polyline, origin: NDArray[np.float64], places: int) -> str:
+    """Path data of a contour; the page's upper left corner is ``origin`` in the document."""
+    page = (line.points - origin) * (1.0, -1.0) + 0.0  # there is no -0 then
     steps = "\nL".join(f"{_decimal(x, places)} {_decimal(y, places)}" for x, y in page.tolist())
     return f"M{steps}{'Z' if line.closed else ''}"
 
@@ -85,5 +91,5 @@ def _decimal(value: float, places: int) -> str:
 
 def _text(words: str) -> str:
     """Words as XML can hold them: no control characters, no halves of characters."""
-    kept = (c for c in words if c >= " " and not "\ud800" <= c <= "\udfff" and c < "\ufffe")
-    return escape("".join(kept), quote=False)
+    dropped = re.sub("[\0-\x1f\ud800-\udfff\ufffe\uffff]", "", words)
+    return escape(dropped, quote=False)
