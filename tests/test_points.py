@@ -254,3 +254,14 @@ def test_a_hundred_thousand_points_are_read_whole(read):
     rows = np.random.default_rng(3).normal(size=(100_000, 2)) * 1000
     curve = read("x,y\n" + "\n".join(f"{x!r},{y!r}" for x, y in rows.tolist()))
     assert curve.points.tobytes() == rows.tobytes()
+
+
+@given(st.one_of(st.binary(max_size=60), st.text('0123456789,.;\t -+einaf#\n\r"x_', max_size=60)))
+def test_any_bytes_are_a_curve_or_a_fault_of_the_file(tmp_path_factory, contents):
+    path = tmp_path_factory.getbasetemp() / "any.dat"
+    path.write_bytes(contents if isinstance(contents, bytes) else contents.encode())
+    try:
+        (curve,) = points.read(path).curves
+    except FileError:
+        return
+    assert len(curve.points) > 0

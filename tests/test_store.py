@@ -1,3 +1,4 @@
+import contextlib
 import os
 import re
 import subprocess
@@ -329,22 +330,28 @@ from core.document import Curve, Document
 
 path = Path(sys.argv[1])
 documents = [Document((Curve([[k, 0.5]] * 300, name=str(k)),)) for k in range(2)]
+synchronise = os.fsync
+strays = 0
 store.save(documents[0], path)
 for kill in range(20):
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
+        # Tell when the temporary is written, so that the kill falls into the middle of a save.
+        os.fsync = lambda file: (os.write(writing, b"."), synchronise(file))
         while True:
             for document in documents:
                 store.save(document, path)
-                os.write(writing, b".")
-    os.read(reading, 1)
-    for _ in range(random.Random(kill).randrange(20_000)):
+    pause = random.Random(kill)
+    os.read(reading, pause.randrange(1, 4))
+    for _ in range(pause.randrange(5_000)):
         pass
     os.kill(child, signal.SIGKILL)
     os.waitpid(child, 0)
+    strays += len(list(path.parent.glob(".ninepoint-*")))
     name = store.load(path).curves[0].name
     assert name in "01", name
+assert strays, "no kill fell into a save"
 store.save(documents[0], path)
 assert list(path.parent.iterdir()) == [path], list(path.parent.iterdir())
 sys.stdout.write("survived")
@@ -361,3 +368,14 @@ def test_killed_while_saving_the_file_is_always_whole_and_strays_are_cleaned(tmp
         check=False,
     )
     assert result.stdout == "survived", result.stderr
+
+
+@given(st.data())
+def test_any_change_of_the_text_is_a_document_or_a_fault_of_the_file(data):
+    text = unchecked(TEXT)
+    begin = data.draw(st.integers(0, len(text)))
+    end = data.draw(st.integers(begin, min(begin + 30, len(text))))
+    pieces = st.sampled_from([b"[", b"]", b"{", b"}", b",", b'"', b"1e400", b"-", b"null", b"1"])
+    inserted = data.draw(st.one_of(st.binary(max_size=5), pieces))
+    with contextlib.suppress(FileError):
+        assert isinstance(store.decode(text[:begin] + inserted + text[end:], NAME), Document)
