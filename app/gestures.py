@@ -225,7 +225,7 @@ class MovePoints(_Edit):
     def move(self, pointer: Pointer) -> None:
         way = self._stage.camera.to_mm(pointer.pos_px) - self._start_mm
         self._way_mm = one_axis(way) if pointer.shift else way
-        self._session.edit(moved(self._origin, self._points, self._way_mm))
+        self._session.adjust(moved(self._origin, self._points, self._way_mm))
 
 
 class PullCurve(_Edit):
@@ -260,7 +260,7 @@ class PullCurve(_Edit):
         target = self._place_mm + self._way_mm
         curve = self._curve
         points = pulled(curve.points, self._mask, curve.is_loop, self._hit.t, target)
-        self._session.edit(with_points(self._origin, self._hit.curve, points))
+        self._session.adjust(with_points(self._origin, self._hit.curve, points))
 
 
 def one_axis(way: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -53,7 +53,7 @@ class Nudging(QObject):
             self.settle()
             session.begin(counted("Move", len(points)))
             self._origin, self._points = session.origin, points
-        session.edit(moved(session.document, points, (dx_mm, dy_mm)))
+        session.adjust(moved(session.document, points, (dx_mm, dy_mm)))
         self._timer.start()
 
     def settle(self) -> None:

@@ -106,10 +106,19 @@ class Session(QObject):
         """Open a gesture: all edits until `commit` are one step of undo."""
         self._history.begin(name)
 
-    def edit(self, document: Document, name: str = "") -> None:
-        """Make ``document`` the present one; a step of undo called ``name``, unless in a gesture."""
+    def edit(self, document: Document, name: str) -> None:
+        """Make ``document`` the present one: a step of undo called ``name``.
+
+        A gesture that is open, such as a burst of arrow keys, is complete with that.
+        """
         old = self.document
         self._history.record(document, name)
+        self._announce(old)
+
+    def adjust(self, document: Document, name: str = "") -> None:
+        """Make ``document`` the present one within the open gesture; ``name`` renames it."""
+        old = self.document
+        self._history.adjust(document, name)
         self._announce(old)
 
     def commit(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -248,20 +249,26 @@ class SchemePanel(QWidget):
         """A track was moved by the user: within a drag, or by a key or the wheel."""
         if self._showing:
             return
-        if not self.tracks[name].is_held:
-            if not self._burst.isActive():
-                self._session.begin(self._set_name(name))
+        held = self.tracks[name].is_held
+        begins = not held and not self._burst.isActive()
+        if begins or not self._session.in_gesture:
+            self._session.begin(self._set_name(name))
+        if not held:
             self._burst.start()
-        self._edit(name, Fraction(steps, STEPS_PER_UNIT))
+        self._change(name, Fraction(steps, STEPS_PER_UNIT), self._session.adjust)
 
     def _edit(self, name: str, value: Fraction) -> None:
+        self._change(name, value, self._session.edit)
+
+    def _change(
+        self, name: str, value: Fraction, take: Callable[[Document, str], None]
+    ) -> None:
         document = self._session.document
         old = document.parameters
         values = {"alpha": old.alpha, "beta": old.beta, "gamma": old.gamma, name: value}
         new = Parameters(**values, neighbours=old.neighbours)
         if new != old:
-            text = f"Set {name} {shown_number(value)}"
-            self._session.edit(document.with_parameters(new), text)
+            take(document.with_parameters(new), f"Set {name} {shown_number(value)}")
 
     def _on_changed(self, old: Document, new: Document) -> None:
         if old.parameters is not new.parameters:

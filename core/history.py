@@ -19,7 +19,7 @@ class History:
     """The states of one document from opening to now, with a cursor.
 
     A *gesture* (a drag, a slider move) folds all its edits into one state: `begin` opens it,
-    `record` replaces its state as often as needed, `commit` keeps it, `cancel` drops it.
+    `adjust` replaces its state as often as needed, `commit` keeps it, `cancel` drops it.
 
     Parameters
     ----------
@@ -67,20 +67,31 @@ class History:
         self._gesture = name
         self._origin = self.document
 
-    def record(self, document: Document, name: str = "") -> None:
-        """Make ``document`` the present state.
+    def record(self, document: Document, name: str) -> None:
+        """Make ``document`` a new state called ``name``, committing an open gesture first.
 
-        Outside a gesture it becomes a new state called ``name``. Within a gesture it takes the
-        place of the gesture's state; a ``name`` given there renames the gesture. States that were
-        undone before are dropped.
+        States that were undone before are dropped. The present document is no new state.
         """
-        if document is self.document:
-            return
-        if self._gesture is None:
+        self.commit()
+        if document is not self.document:
             self._push(State(document, name))
-            return
+
+    def adjust(self, document: Document, name: str = "") -> None:
+        """Make ``document`` the state of the open gesture; a ``name`` renames the gesture.
+
+        Going back to the very document that the gesture began with leaves no state.
+
+        Raises
+        ------
+        RuntimeError
+            If no gesture is open: there is nothing to adjust.
+        """
+        if self._gesture is None:
+            raise RuntimeError("adjust needs an open gesture")
         self._gesture = name or self._gesture
-        if self.document is self._origin:
+        if document is self._origin:
+            self._drop()
+        elif self.document is self._origin:
             self._push(State(document, self._gesture))
         else:
             self._states[self._index] = State(document, self._gesture)
@@ -94,9 +105,8 @@ class History:
 
         What could be redone before the gesture can be redone again.
         """
-        if self._gesture is not None and self.document is not self._origin:
-            self._index -= 1
-            self._states[self._index + 1 :] = self._undone
+        if self._gesture is not None:
+            self._drop()
         self._gesture = None
 
     def undo(self) -> None:
@@ -111,6 +121,12 @@ class History:
         self.commit()
         if self._index + 1 < len(self._states):
             self._index += 1
+
+    def _drop(self) -> None:
+        """Take the gesture's state back, if there is one, and restore what was undone before."""
+        if self.document is not self._origin:
+            self._index -= 1
+            self._states[self._index + 1 :] = self._undone
 
     def _push(self, state: State) -> None:
         self._undone = self._states[self._index + 1 :]

@@ -140,8 +140,8 @@ def test_numbers_are_read_exactly(value, number):
 
 @pytest.mark.parametrize(
     "value",
-    ["", "x", "1/0", "1//2", "1/2/3", "nan", "inf", float("nan"), float("inf"), True, None, "1e9999",
-     "9" * 100, "1_000", 5e-324, "0x10", [1]],
+    ["", "x", "1/0", "1//2", "1/2/3", "nan", "inf", float("nan"), float("inf"), True, None,
+     "1e9999", "9" * 100, "1_000", 5e-324, "0x10", [1]],
 )  # fmt: skip
 def test_what_is_no_admitted_number_is_refused_by_name(value):
     with pytest.raises(ParameterError, match="gamma"):

@@ -1,5 +1,6 @@
 """Undo and redo equal a list of snapshots, whatever is done."""
 
+import pytest
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
@@ -17,7 +18,7 @@ def test_a_gesture_is_one_step():
     history = History(start)
     history.begin("Move point")
     for x in range(5):
-        history.record(document(x))
+        history.adjust(document(x))
     last = history.document
     history.commit()
     assert history.undo_name == "Move point"
@@ -33,7 +34,7 @@ def test_cancelling_restores_the_very_document_and_what_could_be_redone():
     history.undo()
     start = history.document
     history.begin("Move point")
-    history.record(document(2))
+    history.adjust(document(2))
     assert history.redo_name is None
     history.cancel()
     assert history.document is start
@@ -50,7 +51,7 @@ def test_an_empty_gesture_leaves_no_step():
 def test_a_gesture_may_be_renamed_by_its_edits():
     history = History(document(0))
     history.begin("Set beta")
-    history.record(document(1), "Set beta -0.5")
+    history.adjust(document(1), "Set beta -0.5")
     history.commit()
     assert history.undo_name == "Set beta -0.5"
 
@@ -59,7 +60,7 @@ def test_undo_within_a_gesture_cancels_it():
     history = History(document(0))
     start = history.document
     history.begin("Move point")
-    history.record(document(1))
+    history.adjust(document(1))
     history.undo()
     assert history.document is start
     assert not history.in_gesture
@@ -69,6 +70,36 @@ def test_recording_the_same_document_is_no_step():
     history = History(document(0))
     history.record(history.document, "nothing")
     assert history.undo_name is None
+
+
+def test_a_gesture_that_comes_back_to_its_origin_leaves_no_step():
+    history = History(document(0))
+    history.record(document(1), "one")
+    history.undo()
+    start = history.document
+    history.begin("Set beta")
+    history.adjust(document(2))
+    history.adjust(start)
+    history.commit()
+    assert history.document is start
+    assert history.undo_name is None
+    assert history.redo_name == "one"
+
+
+def test_an_edit_of_its_own_completes_an_open_gesture():
+    history = History(document(0))
+    history.begin("Move point")
+    history.adjust(document(1))
+    history.record(document(2), "Rename curve")
+    assert not history.in_gesture
+    assert history.undo_name == "Rename curve"
+    history.undo()
+    assert history.undo_name == "Move point"
+
+
+def test_without_a_gesture_there_is_nothing_to_adjust():
+    with pytest.raises(RuntimeError, match="gesture"):
+        History(document(0)).adjust(document(1))
 
 
 class Snapshots(RuleBasedStateMachine):
@@ -82,15 +113,26 @@ class Snapshots(RuleBasedStateMachine):
         self.place = 0
         self.gesture = None
 
+    def _complete(self):
+        if self.gesture is not None and self.gesture[1] is not None:
+            self.states = [*self.states[: self.place + 1], self.gesture[1]]
+            self.place += 1
+        self.gesture = None
+
     @rule(x=st.integers(0, 100))
     def edit(self, x):
         new = document(x)
         self.history.record(new, "edit")
-        if self.gesture is not None:
-            self.gesture = (self.gesture[0], new)
-        else:
-            self.states = [*self.states[: self.place + 1], new]
-            self.place += 1
+        self._complete()
+        self.states = [*self.states[: self.place + 1], new]
+        self.place += 1
+
+    @precondition(lambda self: self.gesture is not None)
+    @rule(x=st.integers(0, 100), back=st.booleans())
+    def adjust(self, x, back):
+        new = self.gesture[0] if back else document(x)
+        self.history.adjust(new)
+        self.gesture = (self.gesture[0], None if back else new)
 
     @precondition(lambda self: self.gesture is None)
     @rule()
@@ -102,10 +144,7 @@ class Snapshots(RuleBasedStateMachine):
     @rule()
     def commit(self):
         self.history.commit()
-        if self.gesture[1] is not None:
-            self.states = [*self.states[: self.place + 1], self.gesture[1]]
-            self.place += 1
-        self.gesture = None
+        self._complete()
 
     @precondition(lambda self: self.gesture is not None)
     @rule()

@@ -1,5 +1,6 @@
 """Hölder exponents as proven intervals."""
 
+from itertools import pairwise
 from math import log2
 
 import numpy as np
@@ -72,7 +73,7 @@ def test_no_norm_contradicts_the_upper_end(parameters, iterations):
 @given(convergent_members())
 def test_intervals_shrink_with_the_budget(parameters):
     intervals = [branch_and_bound(parameters.mask, 0.01, n) for n in (10, 100, 1000)]
-    for wide, narrow in zip(intervals, intervals[1:], strict=False):
+    for wide, narrow in pairwise(intervals):
         assert wide.lower <= narrow.lower + 1e-12
         assert narrow.upper <= wide.upper + 1e-12
         assert narrow.lower <= narrow.upper

@@ -42,7 +42,7 @@ def test_an_edit_to_the_same_document_announces_nothing(session, changes):
 def test_a_cancelled_gesture_restores_the_very_document(session, changes):
     old = session.document
     session.begin("Move point")
-    session.edit(shorter(old))
+    session.adjust(shorter(old))
     assert session.origin is old
     session.cancel()
     assert session.document is old

@@ -177,7 +177,8 @@ def test_one_draw_for_many_edits(canvas, session, monkeypatch):
     QApplication.processEvents()
     monkeypatch.setattr(canvas, "update", lambda *args: draws.append(args))
     for x in range(20):
-        session.edit(session.document.with_curve(0, session.document.curves[0].moved([0], (x, 0))))
+        curve = session.document.curves[0].moved([0], (x, 0))
+        session.edit(session.document.with_curve(0, curve), "Move point")
     assert draws == []
     QApplication.processEvents()
     assert draws == [()]

@@ -121,7 +121,7 @@ def test_drag_slide_undo_redo_and_save_in_a_real_window(display, twin, tmp_path)
         def title():
             return hand.do("getwindowname", hand.window)
 
-        hand.drag(place, place + (14, -25))
+        hand.drag(place, place + np.array([14, -25]))
         until(lambda: "*" in title())
         hand.press("ctrl+s")
         until(lambda: "*" not in title())
