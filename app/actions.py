@@ -322,16 +322,24 @@ class Actions:
             self._made[key].setEnabled(bool(session.selection.points))
 
     def tint(self) -> None:
-        """Draw the icons in the colours of the window's present palette."""
-        palette = self._window.palette()
+        """Draw the icons in the colours of the window's palette, for the pixels of its screen."""
+        palette, ratio = self._window.palette(), self._window.devicePixelRatioF()
         for command in COMMANDS:
             if command.icon:
-                self._made[command.key].setIcon(tinted(command.icon, palette))
+                self._made[command.key].setIcon(tinted(command.icon, palette, ratio))
 
 
 def keys_in_words(command: Command) -> str:
-    """The keys of an action as this system writes them: "Ctrl+Z", "F1 or ?"."""
-    return " or ".join(_native(sequence) for sequence in command.sequences)
+    """The keys of an action as this system writes them: "Ctrl+Z", "F1 or ?".
+
+    Of a standard key's bindings only the first is told: the others are keys such as "Undo", which
+    few keyboards have.
+    """
+    told: list[QKeySequence] = []
+    for key in command.keys:
+        bound = [QKeySequence(key)] if isinstance(key, str) else QKeySequence.keyBindings(key)[:1]
+        told.extend(sequence for sequence in bound if sequence not in told)
+    return " or ".join(_native(sequence) for sequence in told)
 
 
 def _native(sequence: QKeySequence) -> str:

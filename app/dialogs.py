@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from enum import Enum
-from importlib import metadata
 from pathlib import Path
 
 from PySide6.QtGui import QGuiApplication
@@ -121,6 +120,8 @@ class Dialogs:
 
 def program_version() -> str:
     """Version of the installed program; "" in a checkout that was never installed."""
+    from importlib import metadata  # rarely wanted, and slow to load
+
     try:
         return metadata.version("ninepoint")
     except metadata.PackageNotFoundError:

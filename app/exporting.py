@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -185,11 +186,10 @@ class ExportDialog(QDialog):
         self.preview.setMinimumWidth(self.preview.fontMetrics().averageCharWidth() * 52)
         self.preview.setMinimumHeight(self.preview.fontMetrics().lineSpacing() * 2)
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        self.export = self.buttons.addButton(
-            "&Export...", QDialogButtonBox.ButtonRole.AcceptRole
-        )
-        self.export.setDefault(True)
+        self.export = self.buttons.addButton("&Export...", QDialogButtonBox.ButtonRole.AcceptRole)
+        self.buttons.button(QDialogButtonBox.StandardButton.Cancel).setIcon(QIcon())
         self._lay_out()
+        self.export.setDefault(True)  # after the layout, which makes a button of its own choice so
         self.buttons.accepted.connect(self.accept)
         self.buttons.rejected.connect(self.reject)
         self.choice.currentIndexChanged.connect(self._show_preview)
@@ -203,6 +203,7 @@ class ExportDialog(QDialog):
         form.setHorizontalSpacing(12)
         form.setVerticalSpacing(10)
         tolerance = QHBoxLayout()
+        tolerance.setSpacing(8)
         tolerance.addWidget(self.field)
         tolerance.addWidget(QLabel("mm"))
         tolerance.addStretch()
@@ -265,7 +266,9 @@ def trial(document: Document, form: Format, tolerance_mm: float) -> ExportReport
 
 def described(report: ExportReport) -> str:
     """Words of a report, in the window's letters: "105.60 × 62.00 mm, closed, ..."."""
-    return report.summary.replace(" x ", " × ").replace("<=", "≤")
+    # Unbreakable spaces keep the bound together in a narrow window.
+    bound = report.summary.replace("deviation <= ", "deviation\u00a0\u2264\u00a0")
+    return bound.replace(" x ", " \u00d7 ").removesuffix(" mm") + "\u00a0mm"
 
 
 def check_tolerance(number: Fraction) -> None:

@@ -8,20 +8,27 @@ from PySide6.QtSvg import QSvgRenderer
 
 from app.assets import icon_path
 
-SIZES_PX = (16, 20, 24)
-"""Logical sizes at which icons are shown: menus, the tool bar, the tool bar of large styles."""
-
-RATIOS = (1.0, 2.0, 3.0)
-"""Device pixel ratios for which a picture is kept; Qt scales the next larger one for others."""
+SIZES_PX = (16, 20)
+"""Logical sizes at which icons are shown: in menus, and in the tool bar."""
 
 PLACEHOLDER_COLOUR = "currentColor"
 """What the drawings write where the colour of the text belongs."""
 
 
-def tinted(name: str, palette: QPalette) -> QIcon:
-    """Icon ``name`` in the colours of a palette: normal, disabled and switched on.
+def tinted(name: str, palette: QPalette, ratio: float) -> QIcon:
+    """Icon ``name`` in the colours of a palette, normal and disabled.
 
-    An icon is a picture of one colour, so it is made anew when the palette changes.
+    An icon is a picture of one colour and one density, so it is made anew when the palette changes
+    or the window goes to another screen.
+
+    Parameters
+    ----------
+    name
+        Name of the drawing.
+    palette
+        Whose text the icon goes with.
+    ratio
+        Number of device pixels in a pixel.
     """
     drawing = icon_path(name).read_text(encoding="utf-8")
     role = QPalette.ColorRole.ButtonText
@@ -31,8 +38,7 @@ def tinted(name: str, palette: QPalette) -> QIcon:
     for mode, colour in ((QIcon.Mode.Normal, normal), (QIcon.Mode.Disabled, disabled)):
         renderer = QSvgRenderer(_coloured(drawing, colour))
         for size in SIZES_PX:
-            for ratio in RATIOS:
-                icon.addPixmap(_picture(renderer, size, ratio), mode)
+            icon.addPixmap(_picture(renderer, size, ratio), mode)
     return icon
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
@@ -50,8 +51,10 @@ class KeySheet(QDialog):
         for column in _columns():
             part = QVBoxLayout()
             part.setSpacing(4)
+            metrics = self.fontMetrics()
+            widest = max(metrics.horizontalAdvance(keys) for _, rows in column for keys, _ in rows)
             for title, rows in column:
-                self._add(part, title, rows)
+                self._add(part, title, rows, widest)
             part.addStretch()
             columns.addLayout(part)
         area = QScrollArea()
@@ -59,6 +62,7 @@ class KeySheet(QDialog):
         area.setWidgetResizable(True)
         area.setWidget(page)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.button(QDialogButtonBox.StandardButton.Close).setIcon(QIcon())
         buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
         layout.addWidget(area)
@@ -71,7 +75,7 @@ class KeySheet(QDialog):
             room.height() + extra + margins.top() + margins.bottom() + 4,
         )
 
-    def _add(self, part: QVBoxLayout, title: str, rows: Rows) -> None:
+    def _add(self, part: QVBoxLayout, title: str, rows: Rows, keys_px: int) -> None:
         heading = QLabel(title)
         font = heading.font()
         font.setBold(True)
@@ -81,6 +85,7 @@ class KeySheet(QDialog):
         grid.setHorizontalSpacing(16)
         grid.setVerticalSpacing(3)
         grid.setColumnStretch(1, 1)
+        grid.setColumnMinimumWidth(0, keys_px)
         grid.setContentsMargins(0, 2, 0, 12)
         for row, (keys, words) in enumerate(rows):
             label = QLabel(keys)

@@ -7,6 +7,7 @@ from typing import Any, Final
 
 from PySide6.QtCore import (
     QAbstractTableModel,
+    QEvent,
     QItemSelection,
     QItemSelectionModel,
     QModelIndex,
@@ -30,6 +31,7 @@ from PySide6.QtWidgets import (
 from app.fields import typed_number
 from app.guard import guarded
 from app.session import Selection, Session
+from app.theme import soften
 from core.document import Curve, Document
 from core.errors import NinepointError
 
@@ -69,6 +71,7 @@ class CurvesPanel(QWidget):
         self.list = QListWidget()
         self.list.setAccessibleName("Curves")
         self.list.setFrameShape(QListWidget.Shape.NoFrame)
+        soften(self.list)
         self.list.currentRowChanged.connect(self._choose)
         self.list.itemChanged.connect(self._rename)
         self.empty = QLabel("No curves yet. Take the pen (P) and click on the canvas.")
@@ -121,6 +124,13 @@ class CurvesPanel(QWidget):
             self._layout.setCurrentIndex(0 if document.curves else 1)
         finally:
             self._showing = False
+
+    @guarded
+    def changeEvent(self, event: QEvent) -> None:
+        """Mark the selection in the colours of another scheme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "list"):
+            soften(self.list)
 
 
 class PointsModel(QAbstractTableModel):
@@ -250,6 +260,7 @@ class PointsPanel(QWidget):
         self.table = QTableView()
         self.table.setAccessibleName("Points of the current curve")
         self.table.setModel(self.model)
+        soften(self.table)
         self.table.setFrameShape(QTableView.Shape.NoFrame)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.setAlternatingRowColors(True)
@@ -296,6 +307,13 @@ class PointsPanel(QWidget):
             self._showing = False
         if len(rows) == 1:
             self.table.scrollTo(self.model.index(rows[0], 0))
+
+    @guarded
+    def changeEvent(self, event: QEvent) -> None:
+        """Mark the selection in the colours of another scheme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "table"):
+            soften(self.table)
 
 
 def shown_length(value: float) -> str:

@@ -48,6 +48,9 @@ TOP_MARGIN: Final = 0.22
 COARSE_RANGE: Final = 3.0
 """Ranges above this are labelled in steps of 2 instead of 1/2, so that labels never touch."""
 
+NOTE_SHARE: Final = 0.7
+"""Breadth, as a share of the plot's, in which a sentence that explains is broken into lines."""
+
 WIDEST: Final = 4.0
 """Largest value that the range grows to; a function that runs away is cut off there."""
 
@@ -78,6 +81,7 @@ class AnalysisPlot(pg.PlotWidget):
     ) -> None:
         super().__init__(parent)
         self._least = least
+        self._range: tuple[float, float] | None = None
         self.setAccessibleName(name)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         item = self.getPlotItem()
@@ -115,8 +119,8 @@ class AnalysisPlot(pg.PlotWidget):
         """
         raise NotImplementedError
 
-    def paint_with(self, colours: Palette) -> None:
-        """Colour what `_build` added."""
+    def paint_with(self, colours: Palette, ratio: float) -> None:
+        """Colour what `_build` added; ``ratio`` is the number of device pixels in a pixel."""
 
     @property
     def sentence(self) -> str:
@@ -133,9 +137,10 @@ class AnalysisPlot(pg.PlotWidget):
             self.curve.setData([], [])
         for part in self._parts:
             part.setVisible(found)
-        self.note.setText(sentence)
         self.setAccessibleDescription(sentence)
-        self.note.setTextWidth(-1 if found else self.width() * 0.7)
+        if self.note.textItem.toPlainText() != sentence:
+            self.note.setText(sentence)
+        self.note.setTextWidth(-1 if found else self.width() * NOTE_SHARE)
         self._place_note()
 
     def _show_curve(self, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
@@ -144,6 +149,9 @@ class AnalysisPlot(pg.PlotWidget):
         low, high = self._least
         low -= _grown(low + BOTTOM_MARGIN - seen.min())
         high += _grown(seen.max() - (high - TOP_MARGIN))
+        if (low, high) == self._range:
+            return  # new ticks would have the axes drawn anew
+        self._range = (low, high)
         item = self.getPlotItem()
         item.setYRange(low, high, padding=0)
         ticks = (-2, 0, 2, 4) if high - low > COARSE_RANGE else (0, 0.5, 1)
@@ -158,20 +166,21 @@ class AnalysisPlot(pg.PlotWidget):
             self.show_parameters(new.parameters)
 
     def _colour(self) -> None:
-        colours = palette_of(self)
+        # Widths of pyqtgraph's pens are device pixels.
+        colours, ratio = palette_of(self), self.devicePixelRatioF()
         self.setBackground(colours.plot_background)
         font = QFont(self.font())
         font.setPointSizeF(max(font.pointSizeF() - 1, 1.0))
         for side in ("bottom", "left"):
             axis = self.getPlotItem().getAxis(side)
-            axis.setPen(pg.mkPen(colours.plot_grid))
+            axis.setPen(pg.mkPen(colours.plot_grid, width=ratio))
             axis.setTextPen(pg.mkPen(colours.muted_text))
             axis.setTickFont(font)
-        self.zero.setPen(pg.mkPen(colours.axis))
-        self.curve.setPen(pg.mkPen(colours.plot_curve, width=CURVE_PX))
+        self.zero.setPen(pg.mkPen(colours.axis, width=ratio))
+        self.curve.setPen(pg.mkPen(colours.plot_curve, width=CURVE_PX * ratio))
         self.note.setColor(colours.text)
         self.note.setFont(font)
-        self.paint_with(colours)
+        self.paint_with(colours, ratio)
 
     @guarded
     def changeEvent(self, event: QEvent) -> None:
@@ -179,6 +188,13 @@ class AnalysisPlot(pg.PlotWidget):
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and hasattr(self, "note"):
             self._colour()
+
+    @guarded
+    def event(self, event: QEvent) -> bool:
+        """Take over the pixels of another screen."""
+        if event.type() == QEvent.Type.DevicePixelRatioChange and hasattr(self, "note"):
+            self._colour()
+        return bool(super().event(event))
 
     @guarded
     def wheelEvent(self, event: QWheelEvent) -> None:
@@ -207,11 +223,11 @@ class BasisPlot(AnalysisPlot):
         self.support.setRegion((float(left), float(right)))
         return f"\u03c6(t) \u00b7 support {_tick(left)} \u2026 {_tick(right)}"
 
-    def paint_with(self, colours: Palette) -> None:
+    def paint_with(self, colours: Palette, ratio: float) -> None:
         """Shade the support."""
         self.support.setBrush(pg.mkBrush(colours.plot_fill))
         for line in self.support.lines:
-            line.setPen(pg.mkPen(colours.plot_curve, style=Qt.PenStyle.DashLine))
+            line.setPen(pg.mkPen(colours.plot_curve, width=ratio, style=Qt.PenStyle.DashLine))
 
 
 class StepPlot(AnalysisPlot):
@@ -244,10 +260,10 @@ class StepPlot(AnalysisPlot):
         self.peaks.setData(pos=np.reshape(peaks, (-1, 2)))
         return f"overshoot {_percent(over)} \u00b7 undershoot {_percent(under)}"
 
-    def paint_with(self, colours: Palette) -> None:
+    def paint_with(self, colours: Palette, ratio: float) -> None:
         """Colour the level of the data and the marks at the peaks."""
-        self.one.setPen(pg.mkPen(colours.axis))
-        self.peaks.setPen(pg.mkPen(colours.plot_annotation, width=1.5))
+        self.one.setPen(pg.mkPen(colours.axis, width=ratio))
+        self.peaks.setPen(pg.mkPen(colours.plot_annotation, width=CURVE_PX * ratio))
         self.peaks.setBrush(pg.mkBrush(colours.plot_background))
 
 

@@ -6,7 +6,7 @@ from typing import Final, Literal, get_args
 
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.style import DARK, LIGHT, Palette, palette_of
 
@@ -18,6 +18,9 @@ SCHEMES: Final[dict[str, Qt.ColorScheme]] = {
     "light": Qt.ColorScheme.Light,
     "dark": Qt.ColorScheme.Dark,
 }
+
+SELECTED_SHARE: Final = 0.22
+"""How much accent there is in the ground of a selected row."""
 
 DISABLED_SHARE: Final = 0.45
 """How much of the text's colour a disabled word keeps; the rest is its background's."""
@@ -96,6 +99,21 @@ def window_palette(colours: Palette) -> QPalette:
         palette.setColor(disabled, role, faded)
     palette.setColor(disabled, roles.Highlight, faded)
     return palette
+
+
+def soften(view: QWidget) -> None:
+    """Give a list or table a quiet mark of selection: the canvas beside it has the loud ones.
+
+    To be called again when the palette changes.
+    """
+    application = QApplication.palette(view)
+    base = application.color(QPalette.ColorRole.Base)
+    accent = application.color(QPalette.ColorRole.Accent)
+    quiet = QPalette()
+    quiet.setColor(QPalette.ColorRole.Highlight, blended(accent, base, SELECTED_SHARE))
+    text = application.color(QPalette.ColorRole.Text)
+    quiet.setColor(QPalette.ColorRole.HighlightedText, text)
+    view.setPalette(quiet)
 
 
 def blended(first: QColor, second: QColor, share: float) -> QColor:

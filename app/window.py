@@ -267,6 +267,13 @@ class MainWindow(QMainWindow):
             self.commands.tint()
 
     @guarded
+    def event(self, event: QEvent) -> bool:
+        """Draw the icons anew for the pixels of another screen."""
+        if event.type() == QEvent.Type.DevicePixelRatioChange and hasattr(self, "commands"):
+            self.commands.tint()
+        return super().event(event)
+
+    @guarded
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask about unsaved changes; remember the window's place."""
         event.ignore()  # stands if anything below fails: better open than lost

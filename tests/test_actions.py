@@ -51,9 +51,7 @@ def test_every_row_is_complete():
 
 
 def test_no_key_means_two_things(qtbot):
-    keys = Counter(
-        sequence.toString() for command in COMMANDS for sequence in command.sequences
-    )
+    keys = Counter(sequence.toString() for command in COMMANDS for sequence in command.sequences)
     assert [key for key, count in keys.items() if count > 1] == []
 
 

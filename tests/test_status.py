@@ -1,0 +1,83 @@
+import numpy as np
+import pytest
+
+from app.opening import ready_document
+from app.session import Session
+from app.status import SIZE_LEVEL, StatusBar, drawn_size
+from core.document import Curve, Document
+from core.errors import NoLimitError
+from core.family import PRESETS
+from core.formats import export
+from core.limit import LimitCurve
+
+
+@pytest.fixture
+def bar(qtbot):
+    bar = StatusBar(Session(ready_document()))
+    qtbot.addWidget(bar)
+    return bar
+
+
+def test_the_size_is_that_of_the_curve_and_not_of_the_polygon(tmp_path):
+    report = export(ready_document(), tmp_path / "shape.svg", 1e-4)
+    assert drawn_size(ready_document()) == pytest.approx(
+        (report.width_mm, report.height_mm), abs=1e-3
+    )
+
+
+def test_the_size_holds_all_curves():
+    far = Curve(np.array([[500.0, 0.0], [600.0, 0.0]]), closed=False)
+    width, _ = drawn_size(ready_document().with_curve_added(far))
+    assert width > 500
+
+
+@pytest.mark.parametrize("document", [Document(), Document((Curve(np.zeros((0, 2))),))])
+def test_nothing_has_no_size(document):
+    assert drawn_size(document) is None
+
+
+def test_a_dot_has_the_size_zero():
+    assert drawn_size(Document((Curve(np.array([[3.0, 4.0]])),))) == (0.0, 0.0)
+
+
+def test_a_scheme_without_a_limit_has_no_size(monkeypatch):
+    def refuse(self, level):
+        raise NoLimitError("There is no limit.")
+
+    monkeypatch.setattr(LimitCurve, "points", refuse)
+    assert drawn_size(ready_document()) is None
+
+
+def test_long_curves_are_sampled_coarser(monkeypatch):
+    levels = []
+    original = LimitCurve.points
+    monkeypatch.setattr(
+        LimitCurve, "points", lambda self, level: (levels.append(level), original(self, level))[1]
+    )
+    angle = np.linspace(0, 6, 100_000)
+    long = Curve(np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    drawn_size(Document((long,)))
+    drawn_size(ready_document())
+    assert levels == [4, SIZE_LEVEL]
+
+
+def test_the_size_follows_when_the_hand_rests(qtbot, bar):
+    before = bar.size_label.text()
+    document = bar._session.document
+    bar._session.edit(document.with_parameters(PRESETS["Lagrange"]), "Preset Lagrange")
+    assert bar.size_label.text() == before
+    qtbot.waitUntil(lambda: bar.size_label.text() != before)
+
+
+@pytest.mark.parametrize(
+    ("percent", "text"), [(100, "100 %"), (12.4, "12 %"), (0.123, "0.12 %"), (54321, "54321 %")]
+)
+def test_the_zoom_is_told_in_percent_of_real_size(bar, percent, text):
+    bar.show_zoom(percent / 100 * bar.logicalDpiX() / 25.4)
+    assert bar.zoom_label.text() == text
+
+
+def test_a_long_hint_does_not_widen_the_window(bar):
+    before = bar.minimumSizeHint().width()
+    bar.hint.setText("word " * 200)
+    assert bar.minimumSizeHint().width() == before

@@ -1,0 +1,57 @@
+import pytest
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QApplication, QWidget
+
+from app.style import DARK, LIGHT, contrast, palette_of
+from app.theme import Look, blended, window_palette
+
+Role = QPalette.ColorRole
+TEXT_CONTRAST = 4.5  # WCAG 2.1, 1.4.3
+
+
+@pytest.mark.parametrize("colours", [LIGHT, DARK])
+@pytest.mark.parametrize(
+    ("ink", "ground"),
+    [
+        (Role.WindowText, Role.Window),
+        (Role.Text, Role.Base),
+        (Role.Text, Role.AlternateBase),
+        (Role.ButtonText, Role.Button),
+        (Role.PlaceholderText, Role.Window),
+        (Role.HighlightedText, Role.Highlight),
+        (Role.ToolTipText, Role.ToolTipBase),
+    ],
+)
+def test_words_can_be_read(colours, ink, ground):
+    palette = window_palette(colours)
+    assert contrast(palette.color(ink).name(), palette.color(ground).name()) >= TEXT_CONTRAST
+
+
+@pytest.mark.parametrize("colours", [LIGHT, DARK])
+def test_a_disabled_word_is_fainter_than_the_others(colours):
+    palette = window_palette(colours)
+    window = palette.color(Role.Window).name()
+    normal = palette.color(QPalette.ColorGroup.Active, Role.WindowText).name()
+    faded = palette.color(QPalette.ColorGroup.Disabled, Role.WindowText).name()
+    assert contrast(faded, window) < contrast(normal, window) / 2
+
+
+@pytest.mark.parametrize(("theme", "colours"), [("light", LIGHT), ("dark", DARK)])
+def test_a_theme_reaches_every_widget(qtbot, theme, colours):
+    look = Look(QApplication.instance(), theme)
+    widget = QWidget()
+    qtbot.addWidget(widget)
+    assert palette_of(widget) is colours
+    look.deleteLater()
+
+
+def test_an_unknown_theme_is_refused(qtbot):
+    with pytest.raises(ValueError, match="theme"):
+        Look(QApplication.instance(), "sepia")
+
+
+def test_blending_lies_between():
+    black, white = QColor("#000000"), QColor("#ffffff")
+    assert blended(black, white, 1).name() == "#000000"
+    assert blended(black, white, 0).name() == "#ffffff"
+    assert blended(black, white, 0.5).lightness() == pytest.approx(127, abs=1)
