@@ -6,20 +6,21 @@ and an export neither needs a screen nor Qt's libraries.
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import sys
 from collections.abc import Sequence
 from io import TextIOWrapper
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, NoReturn
+from typing import Final, NoReturn
 
 import click
 
-from core.errors import NinepointError, ParameterError
-
-if TYPE_CHECKING:
-    from core.document import Document
+from app.commands.analyse import analyse
+from app.commands.export import export
+from app.commands.sample import sample
+from core.errors import NinepointError
 
 NAME: Final = "ninepoint"
 """What the program is called on the command line."""
@@ -47,16 +48,9 @@ Examples:
   ninepoint --screenshot wing.png wing.ninepoint
   ninepoint export wing.ninepoint wing.dxf
   ninepoint export points.csv shape.svg --beta -1/2 --closed
+  ninepoint analyse --alpha 1/4 --beta -1/2 --gamma 1/4
+  ninepoint sample wing.ninepoint --level 4 --csv wing.csv
 """
-
-_EXPORT_EXAMPLES: Final = """\
-\b
-Examples:
-  ninepoint export wing.ninepoint wing.dxf
-  ninepoint export naca2412.dat wing.svg --tolerance 0.001
-  ninepoint export points.csv shape.svg --alpha 1/4 --beta -1/2 --gamma 1/4 --closed
-"""
-
 
 class _Commands(click.Group):
     """The commands; a call that names none of them is one of the window's."""
@@ -67,7 +61,8 @@ class _Commands(click.Group):
 
     def format_usage(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         formatter.write_usage(NAME, "[OPTIONS] [FILE]")
-        formatter.write_usage(NAME, "export [OPTIONS] IN OUT", prefix=" " * len("Usage: "))
+        for call in ("export [OPTIONS] IN OUT", "analyse [OPTIONS]", "sample [OPTIONS] IN"):
+            formatter.write_usage(NAME, call, prefix=" " * len("Usage: "))
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         options = [*self.commands[_WINDOW].params, *self.get_params(ctx)]
@@ -100,38 +95,45 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
 
 
 def _status(args: Sequence[str] | None) -> int:
+    words = list(sys.argv[1:] if args is None else args)
+    tell = _tell_json if words[:1] == ["analyse"] and "--json" in words else _tell_words
     try:
         result = _commands.main(args, prog_name=NAME, standalone_mode=False)
     except click.UsageError as error:
         command = error.ctx.info_name if error.ctx else None
         place = f"{NAME} {command}" if command in _commands.commands else NAME
         help_of = place.removesuffix(f" {_WINDOW}")
-        _tell(f"{error.format_message()} ({help_of} --help shows what is possible.)")
+        tell(f"{error.format_message()} ({help_of} --help shows what is possible.)")
         return USER_ERROR
     except (click.Abort, KeyboardInterrupt):
-        _tell("stopped.")
+        tell("stopped.")
         return INTERRUPTED
     except NinepointError as error:
-        _tell(str(error))
+        tell(str(error))
         return USER_ERROR
     except MemoryError:
-        _tell("there is not enough memory for this.")
+        tell("there is not enough memory for this.")
         return USER_ERROR
     except OSError as error:
         if error.filename is None:  # the answer finds no reader, or no room: say no more there
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        _tell(f"{error.filename or 'output'}: {error.strerror or type(error).__name__}.")
+        tell(f"{error.filename or 'output'}: {error.strerror or type(error).__name__}.")
         return USER_ERROR
     except ImportError:
         raise
     except Exception as error:  # the last resort of a program that shows no traceback
-        _tell(f"this is a fault of the program, please report it: {type(error).__name__}: {error}")
+        tell(f"this is a fault of the program, please report it: {type(error).__name__}: {error}")
         return OUR_ERROR
     return result if isinstance(result, int) else 0
 
 
-def _tell(sentence: str) -> None:
+def _tell_words(sentence: str) -> None:
     click.echo(f"{NAME}: {sentence}", err=True)
+
+
+def _tell_json(sentence: str) -> None:
+    """Who asked for JSON gets JSON, whatever went wrong."""
+    click.echo(json.dumps({"error": sentence}, ensure_ascii=False))
 
 
 def _show_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -246,71 +248,5 @@ def _only_file(files: tuple[Path, ...]) -> Path | None:
     return first
 
 
-@_commands.command("export", epilog=_EXPORT_EXAMPLES)
-@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
-@click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
-@click.option(
-    "--tolerance",
-    metavar="MM",
-    default="0.01",
-    show_default=True,
-    help="Largest distance between the exact curve and what is written, in mm.",
-)
-@click.option("--alpha", metavar="NUMBER", help="First parameter, such as 0.25 or 1/4.")
-@click.option("--beta", metavar="NUMBER", help="Second parameter.")
-@click.option("--gamma", metavar="NUMBER", help="Third parameter.")
-@click.option(
-    "--neighbours",
-    type=click.Choice(["translated", "mirrored"]),
-    help="Which neighbours the odd rule combines.",
-)
-@click.option(
-    "--closed/--open",
-    default=None,
-    help="Close or open all curves; by default the file decides.",
-)
-def _export(
-    source: Path,
-    target: Path,
-    tolerance: str,
-    alpha: str | None,
-    beta: str | None,
-    gamma: str | None,
-    neighbours: str | None,
-    closed: bool | None,
-) -> None:
-    """Write the curves of IN into OUT for other programs, at true size.
-
-    IN is a .ninepoint drawing, or points in two columns (.csv, .tsv, .txt, .dat), in mm. OUT
-    ends in .svg or .dxf, which chooses the format; an existing OUT is replaced, whole or not at
-    all. Parameters that are not given are those of the drawing, or Calm (0, -1/2, 0) for points.
-    Points are closed if the last one repeats the first.
-    """
-    from core.family import exact
-    from core.formats import export, open_document
-
-    tolerance_mm = float(exact(tolerance, "--tolerance"))
-    document = open_document(source, closed)
-    changes = {"alpha": alpha, "beta": beta, "gamma": gamma, "neighbours": neighbours}
-    document = _with_parameters(document, {k: v for k, v in changes.items() if v is not None})
-    if target.exists() and target.samefile(source):
-        raise click.UsageError("IN and OUT are the same file.")
-    report = export(document, target, tolerance_mm)
-    click.echo(f"{target}: {report.summary}")
-    left_out = len(document.curves) - report.contours
-    if left_out:
-        _tell(f"{left_out} of the curves had no extent and are left out.")
-
-
-def _with_parameters(document: Document, changes: dict[str, str]) -> Document:
-    """Return the document with those parameters changed that were given as options."""
-    from core.family import Parameters
-
-    present = document.parameters
-    values: dict[str, Any] = {
-        name: getattr(present, name) for name in ("alpha", "beta", "gamma", "neighbours")
-    }
-    try:
-        return document.with_parameters(Parameters(**(values | changes)))
-    except ParameterError as error:
-        raise ParameterError(f"--{error}") from error  # the message begins with the name
+for _command in (export, analyse, sample):
+    _commands.add_command(_command)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from core.continuity import certificate
+from core.continuity import smoothness
 from core.errors import SmoothnessError
 from core.limit import LimitCurve
 
@@ -63,7 +63,7 @@ def curvatures(curve: LimitCurve, level: int) -> NDArray[np.float64]:
 
 
 def _derivatives(curve: LimitCurve, level: int, order: int) -> NDArray[np.float64]:
-    proven = certificate(curve.mask).order
+    proven = smoothness(curve.mask).order
     if proven is None or proven < order:
         known = "not even continuity is" if proven is None else f"only C^{proven} is"
         what = "tangents need" if order == 1 else "curvature needs"

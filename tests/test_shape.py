@@ -81,7 +81,7 @@ def test_curvature_is_undefined_where_the_curve_stands_still():
 
 
 def test_a_derivative_that_is_not_proven_is_refused_with_the_reason():
-    rough = LimitCurve(polygon(8, 1), Parameters("2/5", 0, "-2/5", "mirrored").mask, True)
+    rough = LimitCurve(polygon(8, 1), Parameters("1/2", 0, "-1/2", "mirrored").mask, True)
     with pytest.raises(SmoothnessError, match="only C\\^0 is proven, and tangents need C\\^1"):
         tangents(rough, 2)
     smooth = LimitCurve(polygon(8, 1), Parameters("3/10", "-3/5", "-1/5", "mirrored").mask, True)

@@ -1,0 +1,120 @@
+"""`ninepoint sample`: exact points, tangents and curvature at dyadic parameters."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import click
+
+from app.commands.scheme import chosen, closing, scheme_options
+from core.errors import NinepointError
+
+if TYPE_CHECKING:
+    from core.limit import LimitCurve
+
+MAX_SAMPLES: Final = 5_000_000
+"""Largest number of lines that is written."""
+
+_MAX_LEVEL: Final = 20
+
+_NEEDED_ORDER: Final = 2
+"""Class that all columns need: curvature is made of second derivatives."""
+
+_EXAMPLES = """\
+\b
+Examples:
+  ninepoint sample wing.ninepoint --level 4
+  ninepoint sample points.csv --level 6 --beta -1 --open --csv samples.csv
+"""
+
+
+@click.command("sample", epilog=_EXAMPLES)
+@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
+@click.option(
+    "--level",
+    type=click.IntRange(0, _MAX_LEVEL),
+    default=4,
+    show_default=True,
+    help="Each span is cut into 2^LEVEL pieces.",
+)
+@scheme_options
+@closing
+@click.option(
+    "--csv",
+    "target",
+    metavar="OUT",
+    type=click.Path(path_type=Path),
+    help="Write into a file instead of the terminal.",
+)
+def sample(
+    source: Path,
+    level: int,
+    alpha: str | None,
+    beta: str | None,
+    gamma: str | None,
+    neighbours: str | None,
+    closed: bool | None,
+    target: Path | None,
+) -> None:
+    """Print t, x, y, dx, dy and curvature of the curves of IN at every dyadic t of a level.
+
+    Values are exact up to rounding. dx and dy are derivatives with respect to t, the curvature is
+    in 1/mm, positive to the left. Columns stay empty where the scheme is not proven smooth
+    enough, and where the curve stands still. With several curves a last column says which one a
+    line belongs to.
+    """
+    from core import atomic
+    from core.continuity import smoothness
+    from core.formats import open_document
+
+    document = open_document(source, closed)
+    parameters = chosen(
+        document.parameters, alpha=alpha, beta=beta, gamma=gamma, neighbours=neighbours
+    )
+    limits = [curve.limit(parameters) for curve in document.curves]
+    total = sum(limit.spans for limit in limits) * 2**level
+    if total > MAX_SAMPLES:
+        raise NinepointError(
+            f"Level {level} would give {total:,} lines; at most {MAX_SAMPLES:,} are written."
+        )
+    several = len(limits) > 1
+    order = smoothness(parameters.mask).order
+    if order is None or order < _NEEDED_ORDER:
+        missing = "the curvature stays" if order == 1 else "tangents and curvature stay"
+        click.echo(f"ninepoint: {missing} empty: C^{_NEEDED_ORDER} is not proven here.", err=True)
+    lines = ["t,x,y,dx,dy,curvature" + (",curve" if several else "")]
+    for number, limit in enumerate(limits, start=1):
+        ending = f",{number}" if several else ""
+        lines += [",".join(map(_cell, row)) + ending for row in _rows(limit, level, order)]
+    text = "\n".join(lines) + "\n"
+    if target is None:
+        click.echo(text, nl=False)
+        return
+    if target.exists() and target.samefile(source):
+        raise click.UsageError("IN and OUT are the same file.")
+    atomic.write(target, text.encode())
+    click.echo(f"{target}: {len(lines) - 1:,} points")
+
+
+def _rows(limit: LimitCurve, level: int, order: int | None) -> list[list[float]]:
+    """Lines of one curve; nan where the class that is proven, ``order``, gives no value."""
+    import numpy as np
+
+    from core.shape import curvatures, tangents
+
+    points = limit.points(level)
+    rows = np.full((len(points), 6), math.nan)
+    rows[:, 0], rows[:, 1:3] = limit.parameters(level), points
+    if order is not None and order >= 1:
+        rows[:, 3:5] = tangents(limit, level)
+    if order is not None and order >= _NEEDED_ORDER:
+        rows[:, 5] = curvatures(limit, level)
+    table: list[list[float]] = rows.tolist()
+    return table
+
+
+def _cell(value: float) -> str:
+    """Shortest text that gives the very same float again; nothing where there is no value."""
+    return "" if math.isnan(value) else repr(value)
