@@ -167,6 +167,21 @@ class Parameters:
         return None
 
 
+def default_box(neighbours: Neighbours) -> dict[str, tuple[Fraction, Fraction]]:
+    """Range of each parameter in which a designer looks for curves, by its name.
+
+    All members of these boxes converge: `core.hoelder.converge_throughout` proves it of each box
+    as a whole, and a test runs that proof. Mirrored members with different neighbours are rough,
+    which is why their box is narrower.
+    """
+    side = Fraction(1, 2) if neighbours == "translated" else Fraction(3, 10)
+    return {
+        "alpha": (-side, side),
+        "beta": (Fraction(-5, 4), Fraction(1, 4)),
+        "gamma": (-side, side),
+    }
+
+
 def one_parameter(beta: Scalar) -> Parameters:
     """One-parameter sub-scheme (0, beta, 0): the blend of Q and R, 7-point and symmetric."""
     return Parameters(0, beta, 0)

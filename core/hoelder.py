@@ -23,6 +23,7 @@ Found. Comput. Math. 13 (2013).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import product
@@ -41,8 +42,23 @@ ROUNDING: Final = 1 + 1e-10
 QUICK_WIDTH: Final = 0.049
 """Width that is aimed at while a slider moves."""
 
-QUICK_NODES: Final = 15_000
-"""Products after which the quick search states what it has: about one frame's worth."""
+_FIRST_NODES: Final = 3_000
+"""Products of the first quick search, some 2 ms."""
+
+_QUICK_NODES: Final = 15_000
+"""Products after which the quick search states what it has, some 8 ms."""
+
+_QUICK_SLACK: Final = 0.0335
+"""Stretch of rho for a quick polytope: log2(1.0335) is below `QUICK_WIDTH`."""
+
+_QUICK_VERTICES: Final = 60
+"""Vertices at which a quick polytope is given up, some 10 ms."""
+
+_QUICK_SIZE: Final = 10
+"""Size of the matrices, that of 9-point members with seven factors, up to which one is tried."""
+
+_QUICK_SEED_SIZE: Final = 0.2
+"""Size of the unit vectors in the first quick polytope, next to the leading eigenvector."""
 
 _WORD_LENGTH: Final = 6
 """Longest products whose spectral radii are tried as lower bounds of rho."""
@@ -108,12 +124,55 @@ class _Radius:
 def transition_matrices(mask: Mask) -> tuple[int, NDArray[np.float64]]:
     """Multiplicity m of (1+z) and the matrices ``B_0, B_1``, shape (2, d, d), d >= 1."""
     multiplicity, quotient = mask.factored()
-    b = quotient.values * 2.0 ** (multiplicity - 1)
+    return multiplicity, _matrices(quotient.values * 2.0 ** (multiplicity - 1))
+
+
+def _matrices(b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Matrices ``(B_e)_{ij} = b_{2i-j+e}`` of the coefficients ``b_0, b_1, ...``."""
     size = max(len(b) - 1, 1)
     index = np.arange(size)
     place = 2 * index[:, None] - index[None, :] + np.arange(2)[:, None, None]
     inside = (place >= 0) & (place < len(b))
-    return multiplicity, np.where(inside, b[np.clip(place, 0, len(b) - 1)], 0.0)
+    return np.where(inside, b[np.clip(place, 0, len(b) - 1)], 0.0)
+
+
+def converge_throughout(corners: Sequence[Mask], max_nodes: int = 100_000) -> bool:
+    """Whether all masks between some corners are proven to give convergent schemes.
+
+    The masks of a box of parameters are affine in them, so their matrices lie in the convex hull
+    of those of the corners. If the joint spectral radius of all these together, whatever corner
+    each factor is taken from, is below ``2^(m-1)``, the Hölder exponent is above 0 everywhere in
+    the box, with one proof.
+
+    Parameters
+    ----------
+    corners
+        Masks with common factors ``(1+z)^m``.
+    max_nodes
+        Products after which the search gives up.
+
+    Returns
+    -------
+    bool
+        True is a proof; False is none of the contrary.
+    """
+    multiplicity = min(mask.factored()[0] for mask in corners)
+    start = min(mask.start for mask in corners)
+    end = max(mask.end for mask in corners) - multiplicity
+    quotients = [mask.divided(multiplicity) for mask in corners]
+    coefficients = np.array([[float(q[i]) for i in range(start, end + 1)] for q in quotients])
+    matrices = np.concatenate([_matrices(row) for row in coefficients])
+    # Relative to 2^(m-1): b carries that factor, and the radius shall stay below it.
+    steps = _well_scaled(matrices) * ROUNDING
+    products = steps
+    nodes = 0
+    while len(products):
+        nodes += len(products)
+        products = products[_norms(products) >= 1]
+        if nodes + len(steps) * len(products) > max_nodes:
+            return False
+        products = np.matmul(steps[:, None], products[None]).reshape(-1, *steps.shape[1:])
+    return True
 
 
 def rho_floor(mask: Mask) -> float:
@@ -121,9 +180,21 @@ def rho_floor(mask: Mask) -> float:
     return _radius(mask).lower
 
 
+@lru_cache(maxsize=MEMORY)
 def quick_interval(mask: Mask) -> HoelderInterval:
-    """Hölder interval by branch and bound, within a frame: width `QUICK_WIDTH` as a rule."""
-    return branch_and_bound(mask, QUICK_WIDTH, QUICK_NODES)
+    """Hölder interval within a frame: width `QUICK_WIDTH` as a rule.
+
+    Branch and bound is quickest where one product dominates; where two are nearly maximal no
+    ellipsoid fits, and a coarse invariant polytope does.
+    """
+    found, radius = _searched(mask, QUICK_WIDTH, _FIRST_NODES)
+    if found.width <= QUICK_WIDTH + 1e-8:  # the target and its rounding
+        return found
+    if radius.matrices.shape[1] <= _QUICK_SIZE:
+        rho = radius.value * (1 + _QUICK_SLACK)
+        if _admits_polytope(radius, rho, _QUICK_SEED_SIZE, _QUICK_VERTICES, never):
+            return _narrower(found, radius.interval(rho * INSIDE * ROUNDING))
+    return branch_and_bound(mask, QUICK_WIDTH, _QUICK_NODES)
 
 
 def branch_and_bound(mask: Mask, width: float, max_nodes: int) -> HoelderInterval:
@@ -212,24 +283,36 @@ def exact_interval(mask: Mask, cancelled: Cancelled = never) -> HoelderInterval:
     cancelled
         Asked now and then; True ends the search with the best interval so far.
     """
-    best, radius = _searched(mask, QUICK_WIDTH, QUICK_NODES)
+    best = quick_interval(mask)
+    _, radius = _searched(mask, QUICK_WIDTH, _FIRST_NODES)
     if not radius.word:
         return best
-    size = radius.matrices.shape[1]
     for slack, max_vertices in _SLACKS:
         rho = radius.value * (1 + slack)
-        steps = radius.matrices / rho
-        seeds = [radius.leading]
-        for digit in radius.word[:-1]:
-            seeds.append(steps[digit] @ seeds[-1])
-        small = _SEED_SIZE * max(float(np.abs(seed).max()) for seed in seeds)
-        first = np.column_stack([small * np.eye(size), *seeds])
-        if invariant_polytope(steps, first, max_vertices, cancelled):
-            found = radius.interval(rho * INSIDE * ROUNDING)
-            return HoelderInterval(max(found.lower, best.lower), best.upper, best.product)
+        if _admits_polytope(radius, rho, _SEED_SIZE, max_vertices, cancelled):
+            return _narrower(best, radius.interval(rho * INSIDE * ROUNDING))
         if cancelled():
             break
     return best
+
+
+def _admits_polytope(
+    radius: _Radius, rho: float, seed_size: float, max_vertices: int, cancelled: Cancelled
+) -> bool:
+    """Whether an invariant polytope grows from the leading eigenvector, for matrices over rho."""
+    steps = radius.matrices / rho
+    seeds = [radius.leading]
+    for digit in radius.word[:-1]:
+        seeds.append(steps[digit] @ seeds[-1])
+    small = seed_size * max(float(np.abs(seed).max()) for seed in seeds)
+    first = np.column_stack([small * np.eye(steps.shape[1]), *seeds])
+    return invariant_polytope(steps, first, max_vertices, cancelled)
+
+
+def _narrower(first: HoelderInterval, second: HoelderInterval) -> HoelderInterval:
+    """What two intervals of the same exponent leave together."""
+    upper, word = min((first.upper, first.product), (second.upper, second.product))
+    return HoelderInterval(max(first.lower, second.lower), upper, word)
 
 
 def _norms(products: NDArray[np.float64]) -> NDArray[np.float64]:

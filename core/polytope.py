@@ -34,16 +34,17 @@ def never() -> bool:
 
 
 def polytope_norm(
-    vertices: NDArray[np.float64], basis: list[int], point: NDArray[np.float64]
+    vertices: NDArray[np.float64], start: NDArray[np.float64], point: NDArray[np.float64]
 ) -> float:
     """Upper bound of ``min sum |c|`` over ``vertices @ c = point``, the minimum unless given up.
 
     Parameters
     ----------
     vertices
-        Shape (d, n), of rank d; the polytope is the hull of the columns and their negatives.
-    basis
-        Indices of d linearly independent columns, where the search begins.
+        Shape (d, n), the first d columns linearly independent; the polytope is the hull of the
+        columns and their negatives.
+    start
+        Inverse of the first d columns, where the search begins.
     point
         Shape (d,).
 
@@ -59,8 +60,7 @@ def polytope_norm(
     Revised simplex method. With the signs of the columns chosen so that the coefficients are not
     negative, any basis is feasible, so no first phase is needed.
     """
-    columns = list(basis)
-    start = np.linalg.inv(vertices[:, columns])
+    columns = list(range(len(point)))
     coefficients = start @ point
     signs = np.where(coefficients < 0, -1.0, 1.0)
     inverse = signs[:, None] * start
@@ -130,7 +130,7 @@ def invariant_polytope(
         of all vertices lie in the polytope, stretched by that factor. False proves nothing.
     """
     size = seeds.shape[0]
-    basis = list(range(size))
+    start = np.asarray(np.linalg.inv(seeds[:, :size]), dtype=np.float64)
     vertices = seeds
     fresh = list(range(vertices.shape[1]))
     while fresh:
@@ -140,7 +140,7 @@ def invariant_polytope(
                 if cancelled():
                     return False
                 image = matrix @ vertices[:, index]
-                if polytope_norm(vertices, basis, image) > INSIDE:
+                if polytope_norm(vertices, start, image) > INSIDE:
                     if vertices.shape[1] >= max_vertices:
                         return False
                     added.append(vertices.shape[1])

@@ -1,6 +1,6 @@
 """Hölder exponents as proven intervals."""
 
-from itertools import pairwise
+from itertools import pairwise, product
 from math import log2
 
 import numpy as np
@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.continuity import derived, iterated_norm
-from core.family import PRESETS, Parameters
+from core.family import PRESETS, Parameters, default_box
 from core.hoelder import (
     branch_and_bound,
+    converge_throughout,
     exact_interval,
     quick_interval,
     transition_matrices,
@@ -91,14 +92,43 @@ def test_a_cancelled_search_states_what_it_has():
     assert exact_interval(mask, cancelled=lambda: True) == quick_interval(mask)
 
 
-def test_most_of_the_sliders_box_is_decided_within_a_frames_budget():
+def corners(box, neighbours):
+    ends = product(box["alpha"], box["beta"], box["gamma"])
+    return [Parameters(*corner, neighbours).mask for corner in ends]
+
+
+@pytest.mark.parametrize("neighbours", ["translated", "mirrored"])
+def test_the_whole_box_of_the_sliders_is_proven_convergent(neighbours):
+    assert converge_throughout(corners(default_box(neighbours), neighbours))
+
+
+def test_the_whole_unit_cube_is_proven_convergent_when_translated():
+    unit = dict.fromkeys(("alpha", "beta", "gamma"), (-1, 1))
+    assert converge_throughout(corners(unit, "translated"))
+
+
+def test_a_box_with_a_divergent_member_is_not_proven():
+    wide = dict.fromkeys(("alpha", "beta", "gamma"), (-1, 1))
+    assert quick_interval(Parameters(1, 0, -1, "mirrored").mask).upper < 0
+    assert not converge_throughout(corners(wide, "mirrored"))
+
+
+@pytest.mark.parametrize("name", PRESETS)
+@pytest.mark.parametrize("neighbours", ["translated", "mirrored"])
+def test_every_preset_lies_in_the_box_of_the_sliders(name, neighbours):
+    for parameter, (low, high) in default_box(neighbours).items():
+        assert low <= getattr(PRESETS[name], parameter) <= high
+
+
+def test_most_of_the_sliders_boxes_are_narrowed_within_a_frames_budget():
     rng = np.random.default_rng(4)
     widths = []
-    for _ in range(60):
-        alpha, beta, gamma = (rng.uniform(-1, 1, size=3) * (0.5, 1, 0.5)).round(3)
-        widths.append(
-            quick_interval(Parameters(float(alpha), float(beta), float(gamma)).mask).width
-        )
+    for neighbours in ["translated", "mirrored"] * 100:
+        values = [
+            round(rng.uniform(float(low), float(high)), 3)
+            for low, high in default_box(neighbours).values()
+        ]
+        widths.append(quick_interval(Parameters(*values, neighbours).mask).width)
     assert np.mean(np.array(widths) <= 0.05) >= 0.9
 
 
