@@ -9,7 +9,15 @@ from hypothesis import strategies as st
 from core import store
 from core.document import Curve, Document
 from core.errors import FileError, NinepointError
-from core.formats import EXPORTED, MAX_TOLERANCE_MM, OPENED, ExportReport, export, open_document
+from core.formats import (
+    EXPORTED,
+    MAX_TOLERANCE_MM,
+    OPENED,
+    ExportReport,
+    export,
+    open_document,
+    survey,
+)
 from drawings import extents, letter_f
 
 
@@ -128,3 +136,11 @@ def test_an_export_replaces_the_old_one_whole(tmp_path, suffix):
     export(letter_f(), path)
     export(letter_f(), fresh)
     assert path.read_bytes() == fresh.read_bytes()
+
+
+@pytest.mark.parametrize("suffix", EXPORTED)
+def test_a_survey_tells_what_an_export_would_write_and_writes_nothing(tmp_path, suffix):
+    path = tmp_path / f"letter{suffix}"
+    planned = survey(letter_f(), path, 0.02)
+    assert list(tmp_path.iterdir()) == []
+    assert export(letter_f(), path, 0.02) == planned

@@ -118,6 +118,17 @@ def open_document(path: str | Path, closed: bool | None = None) -> Document:
     return replace(document, curves=curves)
 
 
+def survey(
+    document: Document, path: str | Path, tolerance_mm: float = DEFAULT_TOLERANCE_MM
+) -> ExportReport:
+    """Tell what `export` with the same arguments would write, without writing it.
+
+    Parameters and errors are those of `export`.
+    """
+    path = Path(path)
+    return _report(path, _contours(document, path, tolerance_mm))
+
+
 def export(
     document: Document, path: str | Path, tolerance_mm: float = DEFAULT_TOLERANCE_MM
 ) -> ExportReport:
@@ -142,16 +153,29 @@ def export(
         If the tolerance is not admitted, or the drawing cannot be written with it.
     """
     path = Path(path)
+    contours = _contours(document, path, tolerance_mm)
+    atomic.write(path, _writer(path).encode(contours, path.stem))
+    return _report(path, contours)
+
+
+def _writer(path: Path) -> _Writer:
     writer = _WRITERS.get(path.suffix.lower())
     if writer is None:
         raise _unknown(path, "exported", EXPORTED)
+    return writer
+
+
+def _contours(document: Document, path: Path, tolerance_mm: float) -> Contours:
+    writer = _writer(path)
     if not MIN_TOLERANCE_MM <= tolerance_mm <= MAX_TOLERANCE_MM:
         raise NinepointError(
             f"The tolerance must lie between {MIN_TOLERANCE_MM:g} and {MAX_TOLERANCE_MM:g} mm,"
             f" not {tolerance_mm:g}."
         )
-    contours = Contours.of(document, tolerance_mm, writer.GUARD_DIGITS)
-    atomic.write(path, writer.encode(contours, path.stem))
+    return Contours.of(document, tolerance_mm, writer.GUARD_DIGITS)
+
+
+def _report(path: Path, contours: Contours) -> ExportReport:
     width, height = (contours.high - contours.low).tolist()
     return ExportReport(
         path,
