@@ -26,6 +26,7 @@ from core.gibbs import (
 )
 from core.mask import Mask, Stencil
 from core.polytope import Cancelled, never
+from core.profile import Profile, profile
 from core.reproduction import generation_degree, reproduction_degree
 
 
@@ -55,6 +56,8 @@ class Report:
         Distance from the jump at which the step response has settled to 0.1 %, in spans.
     violation
         First violation of the zeta criterion for k up to `core.gibbs.ZETA_ITERATIONS`, or None.
+    profile
+        Height, depth, lobes and integral of phi; None where there is no limit.
     limit_stencil, tangent_stencil
         Exact weights of the control points in ``C(i)`` and ``C'(i)``; None where there is no limit,
         or where C^1 is not proven.
@@ -74,6 +77,7 @@ class Report:
     is_free_of_gibbs: bool
     ringing_length: float
     violation: Violation | None
+    profile: Profile | None
     limit_stencil: Stencil | None
     tangent_stencil: Stencil | None
     end_rules: tuple[tuple[Fraction, ...], ...]
@@ -114,11 +118,13 @@ def report(parameters: Parameters, cancelled: Cancelled = never) -> Report:
     limit: Stencil | None = None
     rules: tuple[tuple[Fraction, ...], ...] = ()
     ringing = math.inf
+    shape: Profile | None = None
     if exact.convergence is not Convergence.DISPROVEN:
         # Even where no divergence is proven there may be no unique limit; then these stay empty.
         with suppress(NoLimitError):
             limit = phi.limit_stencil()
             rules = end_rules(mask)
+            shape = profile(mask)
             ringing = StepResponse(mask).ringing_length
     has_tangent = limit is not None and exact.order is not None and exact.order >= 1
     return Report(
@@ -134,6 +140,7 @@ def report(parameters: Parameters, cancelled: Cancelled = never) -> Report:
         is_free_of_gibbs=falls_monotonically(mask),
         ringing_length=ringing,
         violation=zeta_violation(mask),
+        profile=shape,
         limit_stencil=limit,
         tangent_stencil=phi.tangent_stencil() if has_tangent else None,
         end_rules=rules,

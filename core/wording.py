@@ -75,6 +75,7 @@ def _sections(report: Report) -> list[tuple[str, list[str]]]:
         ),
         ("Smoothness", _smoothness(report)),
         ("Step response and ramp", _gibbs(report)),
+        ("Basic limit function", _basis(report)),
         ("Limit at a control point", _limit(report)),
         ("Rules at the start of an open polygon", _end_rules(report)),
     ]
@@ -125,6 +126,18 @@ def _gibbs(report: Report) -> list[str]:
             f" = {_fraction(violation.value)} < 0"
         )
     return lines
+
+
+def _basis(report: Report) -> list[str]:
+    found = report.profile
+    if found is None:
+        return ["there is none"]
+    lines = [f"height {_number(found.height)}, integral {found.integral}"]
+    if not found.negative_lobes:
+        lines.append("not negative, proven" if found.depth.upper == 0 else "no negative lobe seen")
+        return lines
+    lobes = ", ".join(f"{left:.2f} .. {right:.2f}" for left, right in found.negative_lobes)
+    return [*lines, f"depth {_number(found.depth)}; negative for t in {lobes}"]
 
 
 def _limit(report: Report) -> list[str]:

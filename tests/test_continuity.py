@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.continuity import certificate, derived, iterated_norm
+from core.continuity import Convergence, certificate, derived, iterated_norm, smoothness
 from core.family import PRESETS, Parameters
 from core.mask import Mask
 from oracles import members
@@ -77,3 +77,31 @@ def test_a_class_needs_its_factors():
 def test_translated_members_of_the_unit_box_are_proven_continuous(corner):
     signs = [2 * c - 1 for c in corner]
     assert certificate(Parameters(*signs).mask).order >= 1
+
+
+@pytest.mark.parametrize("row", ROWS, ids=str)
+def test_the_class_is_known_from_both_sides(row):
+    found = smoothness(row.parameters.mask)
+    assert found.order >= row.certificate[0]
+    assert found.not_class > found.order
+    assert found.convergence is Convergence.PROVEN
+
+
+def test_a_rough_member_is_continuous_and_proven_not_to_be_smoother():
+    found = smoothness(Parameters("1/2", 0, "-1/2", "mirrored").mask)
+    assert 0 < found.exponent.lower < found.exponent.upper < 1
+    assert (found.order, found.not_class) == (0, 1)
+    assert found.convergence is Convergence.PROVEN
+
+
+def test_a_member_with_a_negative_exponent_is_proven_divergent():
+    found = smoothness(Parameters(1, 0, -1, "mirrored").mask)
+    assert found.exponent.upper < 0
+    assert (found.order, found.not_class) == (None, 0)
+    assert found.convergence is Convergence.DISPROVEN
+
+
+@given(members())
+def test_no_class_is_both_proven_and_disproven(parameters):
+    found = smoothness(parameters.mask)
+    assert found.order is None or found.order < found.not_class
