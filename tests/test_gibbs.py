@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.basis import BasicLimitFunction
@@ -18,7 +18,8 @@ from core.gibbs import (
     zeta_violation,
 )
 from core.limit import LimitCurve
-from oracles import convergent_members, step_value
+from core.mask import Mask
+from oracles import convergent_members, members, refined, step_value
 from reference import ROWS
 
 
@@ -117,6 +118,42 @@ def test_the_first_violation_of_the_zeta_criterion_is_a_negative_partial_sum():
     # k = 1, l = 0: sums of the even coefficients from the far end.
     assert violation.value == sum(mask[2 * tau] for tau in range(-10, violation.index + 1)) < 0
     assert zeta_violation(PRESETS["B-spline"].mask) is None
+
+
+def first_negative_sum(mask, iterations):
+    """Theorem 2.2 word by word: the first (k, l, i, zeta) with a negative zeta."""
+    folded = {0: Fraction(1)}
+    for k in range(1, iterations + 1):
+        folded = refined(folded, mask)
+        period = 2**k
+        reach = max(map(abs, folded)) // period + 2
+        for residue in range(period):
+            for i in range(-reach, reach + 1):
+                if i == 0:
+                    continue
+                taus = range(-reach, i + 1) if i < 0 else range(i, reach + 1)
+                zeta = sum((folded.get(period * tau + residue, 0) for tau in taus), Fraction(0))
+                if zeta < 0:
+                    return k, residue, i, zeta
+    return None
+
+
+@settings(max_examples=30)
+@given(members())
+def test_the_first_violation_is_that_of_the_definition(parameters):
+    found = zeta_violation(parameters.mask, 2)
+    expected = first_negative_sum(parameters.mask, 2)
+    if expected is None:
+        assert found is None
+    else:
+        assert (found.iterations, found.residue, found.index, found.value) == expected
+
+
+def test_the_sum_up_to_the_middle_is_no_partial_sum():
+    """With i = 0 the theorem sets zeta to 0: a mask whose sums are negative there only passes."""
+    mask = Mask(-2, tuple(Fraction(c) for c in (3, 1, -4, 0, 2)))
+    assert zeta_violation(mask, 1) is None
+    assert first_negative_sum(mask, 1) is None
 
 
 def test_the_ringing_of_lagrange_is_the_longest_of_the_presets_that_follow_the_polygon():

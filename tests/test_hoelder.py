@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core import hoelder
 from core.continuity import derived, iterated_norm
 from core.family import PRESETS, Parameters, default_box
 from core.hoelder import (
@@ -45,6 +46,30 @@ def test_reference_intervals_overlap_and_are_narrowed(row):
 @pytest.mark.parametrize("name", PRESETS)
 def test_presets_are_known_up_to_rounding(name):
     assert exact_interval(PRESETS[name].mask).width < 1e-7
+
+
+@pytest.mark.parametrize("width", [0.049, 0.01, 0.002])
+def test_a_long_maximal_product_is_not_overlooked(width):
+    """The best product of this member has seven factors, beyond those that are tried at once."""
+    mask = Parameters("48/1000", "-767/1000", "251/1000").mask
+    bound = word_bound(mask, [1, 0, 1, 1, 1, 1, 1])
+    assert bound < min(word_bound(mask, word) for word in ([0], [1], [0, 1], [0, 1, 1]))
+    found = branch_and_bound(mask, width, 100_000)
+    assert found.lower <= bound <= found.upper + 1e-9
+
+
+@pytest.mark.parametrize("max_nodes", [100, 1_000, 10_000])
+def test_the_lower_end_holds_even_if_the_best_product_is_never_tried(monkeypatch, max_nodes):
+    """Pruned are only products that cannot matter, however poor the lower bound of rho is."""
+    monkeypatch.setattr(hoelder, "_WORD_LENGTH", 1)
+    monkeypatch.setattr(hoelder, "_TRIED_WORDS", 0)
+    mask = Parameters("186/1000", "-480/1000", "680/1000", "mirrored").mask
+    hoelder._radius.cache_clear()
+    found = branch_and_bound(mask, 0.1, max_nodes)
+    hoelder._radius.cache_clear()
+    bound = word_bound(mask, [0, 0, 1, 1])
+    assert bound < word_bound(mask, [0]) - 0.03
+    assert found.lower <= bound
 
 
 def test_the_exponent_of_the_bspline_is_its_degree():
