@@ -57,6 +57,18 @@ def test_derivative_tables_kill_constants_and_differentiate_lines(parameters, le
     np.testing.assert_allclose(places @ table, 1, atol=1e-11)
 
 
+@given(convergent_members(["translated"]), st.integers(1, 4), st.integers(1, 2))
+def test_derivatives_solve_the_refinement_equation(parameters, level, order):
+    """From ``phi(x) = sum a_i phi(2x - i)``: each derivative brings a factor 2."""
+    phi = BasicLimitFunction(parameters.mask)
+    fine, coarse = phi.values(level, order), phi.values(level - 1, order)
+    expected = np.zeros(len(fine))
+    for i, a in enumerate(parameters.mask.values):
+        first = i * 2 ** (level - 1)
+        expected[first : first + len(coarse)] += 2**order * a * coarse
+    np.testing.assert_allclose(fine, expected, atol=1e-10)
+
+
 @pytest.mark.parametrize("name", PRESETS)
 def test_a_circle_has_the_curvature_of_its_own_radius(name):
     angle = np.arange(40) * 2 * np.pi / 40
