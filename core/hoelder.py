@@ -69,9 +69,12 @@ _TRIED_WORDS: Final = 3
 _LONGEST_WORD: Final = 60
 """Longest products that are searched; their digits fit into an integer."""
 
-_SLACKS: Final = ((0.0, 200), (1e-6, 300), (1e-4, 600), (3e-4, 900))
+_SLACKS: Final = ((0.0, 200), (1e-6, 300), (1e-4, 600), (6.5e-4, 1500))
 """Stretches of rho for which an invariant polytope is sought, and the vertices at which each is
-given up; 30 to 100 are usual, and log2(1 + 3e-4) is below 0.0005."""
+given up; 30 to 100 are usual, and log2(1 + 6.5e-4) is below 0.001."""
+
+_REAL: Final = 1e-9
+"""Norm of a part of an eigenvector of norm 1 below which the part is rounding."""
 
 _SEED_SIZE: Final = 0.02
 """Size of the unit vectors in the first polytope, next to the leading eigenvector."""
@@ -102,7 +105,10 @@ class HoelderInterval:
 
 @dataclass(frozen=True, eq=False)
 class _Radius:
-    """The two matrices in well-scaled coordinates, and the best product found."""
+    """The two matrices in well-scaled coordinates, and the best product found.
+
+    ``leading`` holds the leading eigenvector of that product, one column or two.
+    """
 
     multiplicity: int
     matrices: NDArray[np.float64]
@@ -274,7 +280,7 @@ def exact_interval(mask: Mask, cancelled: Cancelled = never) -> HoelderInterval:
 
     If the product that gives the lower bound of rho is a maximal one, the orbit of its leading
     eigenvector spans an invariant polytope, and rho is known. Otherwise a slightly stretched rho
-    admits one, and the interval is at most 0.0005 wide.
+    admits one, and the interval is at most 0.001 wide.
 
     Parameters
     ----------
@@ -328,7 +334,7 @@ def _radius(mask: Mask) -> _Radius:
     if matrices.shape[1] == 1:
         # b has one or two coefficients; the matrices are numbers and rho is the larger one.
         value = float(np.abs(matrices).max())
-        return _Radius(multiplicity, matrices, (), value, value, np.ones(1))
+        return _Radius(multiplicity, matrices, (), value, value, np.ones((1, 1)))
     matrices = _well_scaled(matrices)
     found = [(_spectral_radius(matrices, word), word) for word in _lyndon_words(_WORD_LENGTH)]
     # Among products that are as good up to rounding the shortest one, which comes first.
@@ -357,7 +363,10 @@ def _well_scaled(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
 def _spectral_radius(
     matrices: NDArray[np.float64], word: tuple[int, ...]
 ) -> tuple[float, float, NDArray[np.float64]]:
-    """Mean spectral radius of the product of a word, the same rounded down, and its eigenvector."""
+    """Mean spectral radius of the product of a word, the same rounded down, and its eigenvector.
+
+    The eigenvector comes as one column, or, if it is complex, as its real and imaginary parts.
+    """
     power = matrices[word[0]]
     for digit in word[1:]:
         power = matrices[digit] @ power
@@ -372,9 +381,10 @@ def _spectral_radius(
         condition = np.inf
     eps = float(np.finfo(np.float64).eps)
     error = 10 * eps * condition * float(np.linalg.norm(power))
-    real = vector.real if np.abs(vector.real).max() >= np.abs(vector.imag).max() else vector.imag
+    parts = [vector.real, vector.imag]
+    columns = np.column_stack([part for part in parts if np.linalg.norm(part) > _REAL])
     lower = max(size - error, 0.0) ** (1 / len(word))
-    return size ** (1 / len(word)), lower, real / np.linalg.norm(real)
+    return size ** (1 / len(word)), lower, columns
 
 
 @cache

@@ -72,6 +72,19 @@ def test_the_lower_end_holds_even_if_the_best_product_is_never_tried(monkeypatch
     assert found.lower <= bound
 
 
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        Parameters("137/1000", "-763/1000", "143/1000"),  # the leading eigenvalue is complex
+        Parameters("-283/1000", "-777/1000", "-242/1000"),  # the best product has six factors
+        Parameters("88/1000", "-74/1000", "77/1000", "mirrored"),  # and its eigenvalue is double
+    ],
+    ids=str,
+)
+def test_awkward_members_are_narrowed_to_a_thousandth_when_the_hand_rests(parameters):
+    assert exact_interval(parameters.mask).width <= 1e-3
+
+
 def test_the_exponent_of_the_bspline_is_its_degree():
     found = exact_interval(PRESETS["B-spline"].mask)
     assert found.lower == found.upper == 12
