@@ -157,6 +157,10 @@ class BasicLimitFunction:
             ``B[r, m]``, shape ``(end - start + 1, 2^level)``, with
             ``C(i + m / 2^level) = sum_r B[r, m] p_{i + r + 1 - end}``.
         """
+        return self.span_table(level, order)[:, :-1]
+
+    def span_table(self, level: int, order: int = 0) -> NDArray[np.float64]:
+        """Evaluation table of a closed span: `table` with one column more, for ``t = i + 1``."""
         return _table(self, level, order)
 
     def weights(self, tau: float) -> NDArray[np.float64]:
@@ -275,6 +279,9 @@ def _table(phi: BasicLimitFunction, level: int, order: int) -> NDArray[np.float6
     half = 2 ** (fine - 1)
     padded = np.concatenate([np.zeros(half), phi.values(fine, order), np.zeros(half - 1)])
     spans = padded.reshape(-1, 2**fine)
-    table = np.ascontiguousarray(spans[::-1, :: 2 ** (fine - level)])
+    table = np.zeros((len(spans), 2**level + 1))
+    table[:, :-1] = spans[::-1, :: 2 ** (fine - level)]
+    # The end is the start of the next span, whose window lies one point further on.
+    table[1:, -1] = table[:-1, 0]
     table.flags.writeable = False
     return table

@@ -1,9 +1,17 @@
-"""The limit curve: exact points at dyadic parameters, by one matrix product."""
+"""The limit curve: exact points at dyadic parameters, by one matrix product.
+
+Notes
+-----
+Coordinates are stored apart, all x, then all y: so a product of windows of control points and a
+table writes the points once, where they stay, and no copy turns them round. What is returned is
+the transpose of that, an (n, 2) array whose columns are contiguous.
+"""
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
 from core.basis import BasicLimitFunction
@@ -12,6 +20,12 @@ from core.mask import Mask
 
 MAX_LEVEL = 20
 """Finest dyadic level that is tabulated: a million points per span."""
+
+_WHOLE: Final = 2**17
+"""Number of values up to which one product is faster than several."""
+
+_CHUNK: Final = 1024
+"""Spans in each product beyond that: their windows, some 300 kB, stay in the cache."""
 
 
 class LimitCurve:
@@ -48,14 +62,19 @@ class LimitCurve:
         self.control_points = polygon
         self.mask = mask
         self.closed = closed
+        self.spans = len(polygon) if closed else max(len(polygon) - 1, 0)
+        """Number of unit intervals of t: n when closed, n - 1 when open."""
         self._basis = BasicLimitFunction(mask)
-        self.endless_points = extended(polygon, mask, closed) if len(polygon) else polygon
+        endless = extended(polygon, mask, closed) if len(polygon) else polygon
+        self._coordinates = np.ascontiguousarray(endless.T)
+        self._coordinates.flags.writeable = False
+        # One view for the life of the curve: to make it costs more than a small product.
+        self._windows = _windows(self._coordinates, mask.end - mask.start + 1, self.spans)
 
     @property
-    def spans(self) -> int:
-        """Number of unit intervals of t: n when closed, n - 1 when open."""
-        count = len(self.control_points)
-        return count if self.closed else max(count - 1, 0)
+    def endless_points(self) -> NDArray[np.float64]:
+        """The polygon with its phantom points, see `core.ends.extended`; read-only."""
+        return self._coordinates.T
 
     def parameters(self, level: int) -> NDArray[np.float64]:
         """Parameters ``t = k / 2^level`` of the entries of `points`."""
@@ -79,13 +98,18 @@ class LimitCurve:
             Shape (n 2^level, 2) closed, ((n - 1) 2^level + 1, 2) open; exact up to rounding, some
             8 eps times the largest coordinate for convergent schemes.
         """
+        _check_level(level)
         polygon = self.control_points
         if self.spans == 0:
             return polygon.copy()
-        curve = self.span_points(slice(None), level)[:, :-1].reshape(-1, 2)
-        if self.closed:
-            return curve
-        return np.concatenate([curve, polygon[-1:]])
+        count = self.spans << level
+        curve = np.empty((2, count if self.closed else count + 1))
+        table = self._basis.table(level)
+        _multiply(self._windows, table, curve[:, :count].reshape(2, self.spans, -1))
+        if not self.closed:
+            # The end rules hold up to rounding; a contour has to end exactly where it was told to.
+            curve[:, 0], curve[:, -1] = polygon[0], polygon[-1]
+        return curve.T
 
     def at(self, t: float) -> NDArray[np.float64]:
         """Exact point of the curve at any parameter, shape (2,).
@@ -100,22 +124,12 @@ class LimitCurve:
         weights = self._basis.weights(tau)
         if tau == 0 and span == self.spans:
             span, weights = span - 1, np.concatenate([[0.0], weights[:-1]])
-        return weights @ self.endless_points[span : span + len(weights)]
+        point: NDArray[np.float64] = self._windows[:, :, span].T @ weights
+        return point
 
     def span_of(self, t: float) -> tuple[int, float]:
-        """Span i and place tau, 0 <= tau < 1, of a parameter; the end of an open curve is (n-1, 0).
-
-        Raises
-        ------
-        ValueError
-            If the curve is open and t lies beyond its ends.
-        """
-        if self.closed:
-            t %= self.spans
-        elif not 0 <= t <= self.spans:
-            raise ValueError(f"t must lie between 0 and {self.spans}, not {t}")
-        span = int(t)
-        return span % self.spans if self.closed else span, t - span
+        """Span and place in it of a parameter: `span_of` for this curve."""
+        return span_of(t, self.spans, self.closed)
 
     def span_points(
         self, spans: slice | NDArray[np.intp], level: int, order: int = 0
@@ -126,6 +140,7 @@ class LimitCurve:
         ----------
         spans
             Which spans ``[i, i + 1]``: a slice or an array of indices within ``range(self.spans)``.
+            A slice costs no index array.
         level
             Dyadic level, 0 to `MAX_LEVEL`.
         order
@@ -138,17 +153,75 @@ class LimitCurve:
             Shape (k, 2^level + 1, 2): for each span the values at ``t = i + m / 2^level``. The last
             value of a span is, up to rounding, the first of the next.
         """
-        if not 0 <= level <= MAX_LEVEL:
-            raise ValueError(f"level must lie between 0 and {MAX_LEVEL}, not {level}")
-        indices = np.arange(self.spans)[spans]
-        table = self._basis.table(level, order)
-        windows = sliding_window_view(self.endless_points, len(table), axis=0)
-        points = np.empty((len(indices), 2**level + 1, 2))
-        points[:, :-1] = np.matmul(windows[indices], table).transpose(0, 2, 1)
-        # The end t = i + 1 is read with the window of span i: the first column, one point on.
-        points[:, -1] = windows[indices, :, 1:] @ table[:-1, 0]
-        if order == 0 and not self.closed:
-            # The end rules hold up to rounding; a contour has to end exactly where it was told to.
-            points[indices == 0, 0] = self.control_points[0]
-            points[indices == self.spans - 1, -1] = self.control_points[-1]
-        return points
+        _check_level(level)
+        windows = self._windows[:, :, spans]
+        count = windows.shape[2]
+        points = np.empty((2, count, 2**level + 1))
+        _multiply(windows, self._basis.span_table(level, order), points)
+        if order == 0 and not self.closed and count:
+            first, last = self.control_points[0], self.control_points[-1]
+            if isinstance(spans, slice):
+                chosen = range(self.spans)[spans]
+                starts = [chosen.index(0)] if 0 in chosen else []
+                ends = [chosen.index(self.spans - 1)] if self.spans - 1 in chosen else []
+                points[:, starts, 0], points[:, ends, -1] = first[:, None], last[:, None]
+            else:
+                points[:, spans == 0, 0] = first[:, None]
+                points[:, spans == self.spans - 1, -1] = last[:, None]
+        return points.transpose(1, 2, 0)
+
+
+def span_of(t: float, spans: int, closed: bool) -> tuple[int, float]:
+    """Span i and place tau, 0 <= tau < 1, of a parameter; the end of an open curve is (n - 1, 0).
+
+    Parameters
+    ----------
+    t
+        The parameter.
+    spans
+        Number of spans of the curve, at least 1.
+    closed
+        Whether t is taken modulo the number of spans.
+
+    Raises
+    ------
+    ValueError
+        If the curve is open and t lies beyond its ends.
+    """
+    if closed:
+        t %= spans
+    elif not 0 <= t <= spans:
+        raise ValueError(f"t must lie between 0 and {spans}, not {t}")
+    span = int(t)
+    return span % spans if closed else span, t - span
+
+
+def _check_level(level: int) -> None:
+    if not 0 <= level <= MAX_LEVEL:
+        raise ValueError(f"level must lie between 0 and {MAX_LEVEL}, not {level}")
+
+
+def _windows(coordinates: NDArray[np.float64], size: int, spans: int) -> NDArray[np.float64]:
+    """Windows of the spans as a view, shape (size, 2, spans): entry r of each, both coordinates."""
+    row, item = coordinates.strides
+    return np.lib.stride_tricks.as_strided(
+        coordinates,
+        (size, 2, spans),
+        (item, row, item),
+        writeable=False,
+    )
+
+
+def _multiply(
+    windows: NDArray[np.float64], table: NDArray[np.float64], out: NDArray[np.float64]
+) -> None:
+    """Write ``out[c, k, m] = sum_r windows[r, c, k] table[r, m]``, in chunks when there is much."""
+    size, _, count = windows.shape
+    step = count if count * table.shape[1] <= _WHOLE else _CHUNK
+    held = np.empty((size, 2, min(step, count)))
+    for begin in range(0, count, max(step, 1)):
+        part = windows[:, :, begin : begin + step]
+        # Rows of the copy are runs of the windows: sixty times less to read than to multiply.
+        factor = held[:, :, : part.shape[2]]
+        np.copyto(factor, part)
+        np.matmul(factor.transpose(1, 2, 0), table, out=out[:, begin : begin + step])

@@ -1,5 +1,6 @@
 """The limit curve: exact points, against fractions, polynomials and subdivision."""
 
+import tracemalloc
 from fractions import Fraction
 
 import numpy as np
@@ -172,3 +173,41 @@ def test_parameters_beyond_an_open_curve_are_refused(t):
 def test_members_far_outside_still_give_finite_points():
     curve = LimitCurve(polygon(8), Parameters(100, -100, 100).mask, True)
     assert np.isfinite(curve.points(6)).all()
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_many_spans_in_chunks_equal_few_at_once(closed):
+    curve = LimitCurve(polygon(5000), PRESETS["Lean"].mask, closed)
+    spans = curve.span_points(slice(1020, 1030), 5)
+    np.testing.assert_allclose(
+        curve.points(5)[1020 * 32 : 1030 * 32], spans[:, :-1].reshape(-1, 2), atol=1e-12
+    )
+
+
+def test_points_are_written_once_coordinate_by_coordinate():
+    points = LimitCurve(polygon(9), PRESETS["Calm"].mask, False).points(3)
+    assert points.T.flags.c_contiguous
+
+
+@pytest.mark.parametrize("closed", [True, False])
+@pytest.mark.parametrize(
+    "spans", [slice(None), slice(0, 3), slice(4, None), slice(2, 5), slice(None, None, -2)]
+)
+def test_a_slice_of_spans_equals_its_indices(spans, closed):
+    curve = LimitCurve(polygon(9), PRESETS["Lean"].mask, closed)
+    indices = np.arange(curve.spans)[spans]
+    np.testing.assert_array_equal(
+        curve.span_points(spans, 2), curve.span_points(indices, 2), strict=True
+    )
+
+
+def test_few_spans_of_a_long_curve_allocate_little():
+    curve = LimitCurve(polygon(200_000), PRESETS["Tight"].mask, False)
+    curve.span_points(slice(0, 18), 6)
+    tracemalloc.start()
+    try:
+        curve.span_points(slice(99_000, 99_018), 6)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 100_000
