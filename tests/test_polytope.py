@@ -47,7 +47,7 @@ def test_the_golden_pair_is_decided_at_its_exact_radius():
     pair = np.array([[[1.0, 1.0], [0.0, 1.0]], [[1.0, 0.0], [1.0, 1.0]]])
     golden = (1 + 5**0.5) / 2
     values, vectors = np.linalg.eig(pair[0] @ pair[1])
-    leading = vectors[:, values.argmax()]
+    leading = vectors[:, np.abs(values).argmax()].real
     seeds = np.column_stack([0.02 * np.eye(2), leading, pair[1] @ leading / golden])
     assert invariant_polytope(pair / golden, seeds, 60)
     assert not invariant_polytope(pair / (golden * 0.99), seeds, 60)

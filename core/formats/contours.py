@@ -83,18 +83,14 @@ class Contours:
     @property
     def low(self) -> NDArray[np.float64]:
         """Smallest x and y of all vertices."""
-        corner: NDArray[np.float64] = np.min(
-            [line.points.min(axis=0) for line in self.polylines], axis=0
-        )
-        return corner
+        corners = np.array([line.points.min(axis=0) for line in self.polylines])
+        return np.asarray(corners.min(axis=0), dtype=np.float64)
 
     @property
     def high(self) -> NDArray[np.float64]:
         """Largest x and y of all vertices."""
-        corner: NDArray[np.float64] = np.max(
-            [line.points.max(axis=0) for line in self.polylines], axis=0
-        )
-        return corner
+        corners = np.array([line.points.max(axis=0) for line in self.polylines])
+        return np.asarray(corners.max(axis=0), dtype=np.float64)
 
     @property
     def vertices(self) -> int:
