@@ -9,7 +9,9 @@ import shutil
 import subprocess
 import sys
 import time
+from xml.etree import ElementTree as ET
 
+import ezdxf
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint
@@ -80,6 +82,23 @@ class Hand:
         self.do("key", "--clearmodifiers", *keys)
 
 
+def export(hand, path, letter):
+    """Export by keys alone: the dialog, the format by its first letter, then the file's name."""
+
+    def windows():
+        return hand.do("search", "--onlyvisible", "--name", "^Export$").split()
+
+    hand.press("ctrl+shift+e")
+    until(windows)
+    hand.press("alt+f", letter, "Return")
+    until(lambda: hand.do("getactivewindow") != hand.window)
+    time.sleep(0.5)  # the second dialog takes the place of the first
+    hand.do("type", str(path))
+    hand.press("Return")
+    until(path.exists)
+    until(lambda: not windows())
+
+
 @pytest.fixture
 def twin(qtbot):
     """The same window without a screen, which tells where things are."""
@@ -148,6 +167,17 @@ def test_drag_slide_undo_redo_and_save_in_a_real_window(display, twin, tmp_path)
         hand.press("ctrl+s")
         until(lambda: "*" not in title())
         assert store.encode(store.load(path)) == store.encode(dragged)
+
+        for suffix, letter in ((".svg", "s"), (".dxf", "d")):
+            export(hand, tmp_path / f"exported{suffix}", letter)
+        (line,) = ezdxf.readfile(tmp_path / "exported.dxf").modelspace()
+        assert line.closed
+        drawn = np.array([point[:2] for point in line.get_points()])
+        exact = dragged.curves[0].limit(dragged.parameters).points(8)
+        np.testing.assert_allclose(np.ptp(drawn, axis=0), np.ptp(exact, axis=0), atol=0.02)
+        size = "{:.4g} {:.4g}".format(*np.ptp(drawn, axis=0))
+        box = ET.parse(tmp_path / "exported.svg").getroot().get("viewBox").split()[2:]
+        assert "{:.4g} {:.4g}".format(*map(float, box)) == size
 
         hand.press("ctrl+q")
         assert program.wait(PATIENCE_S) == 0
