@@ -17,6 +17,7 @@ from core.gibbs import Gibbs, StepResponse, Violation, ramp_gibbs, step_gibbs, z
 from core.history import History
 from core.hoelder import HoelderInterval, branch_and_bound, exact_interval, quick_interval
 from core.limit import LimitCurve
+from core.live import LiveCurve
 from core.mask import Mask, Stencil
 from core.parents import bspline, lagrange
 from core.pull import control_weights, pulled
@@ -38,6 +39,7 @@ __all__ = [
     "HoelderInterval",
     "Interval",
     "LimitCurve",
+    "LiveCurve",
     "Mask",
     "NinepointError",
     "NoLimitError",

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.basis import BasicLimitFunction
+from core.basis import MEMORY, BasicLimitFunction
 from core.errors import NoLimitError
 from core.mask import Mask
 
@@ -48,6 +49,11 @@ def extended(points: NDArray[np.float64], mask: Mask, closed: bool) -> NDArray[n
     """
     left, right = reach(mask)
     count = len(points)
+    if count >= far(mask):
+        endless = np.empty((left + count + right + closed, points.shape[1]))
+        endless[left : left + count] = points
+        write_ends(endless, points, mask, closed)
+        return endless
     if closed:
         return points[np.arange(-left, count + right + 1) % count]
     if count == 1:
@@ -59,6 +65,42 @@ def extended(points: NDArray[np.float64], mask: Mask, closed: bool) -> NDArray[n
     return _reflected(polygon, left, right)
 
 
+def far(mask: Mask) -> int:
+    """Number of points from which on the two ends of an open polygon do not see each other.
+
+    The phantom points and the centre of an end are made of fewer points than half of it.
+    """
+    return 2 * (max(reach(mask)) + 1)
+
+
+def write_ends(
+    endless: NDArray[np.float64], points: NDArray[np.float64], mask: Mask, closed: bool
+) -> None:
+    """Write the phantom points, and the centres of the reflections, of a long polygon.
+
+    The cost does not depend on the number of points.
+
+    Parameters
+    ----------
+    endless
+        The array of `extended`, written in place; between its ends it is not touched.
+    points
+        Control points, at least `far` of them.
+    mask, closed
+        As in `extended`.
+    """
+    left, right = reach(mask)
+    count = len(points)
+    if closed:
+        endless[:left] = points[count - left :]
+        endless[left + count :] = points[: right + 1]
+        return
+    first, last = points[[0, -1]] if mask.is_symmetric else end_points(points, mask)
+    endless[left], endless[left + count - 1] = first, last
+    endless[:left] = 2 * first - points[left:0:-1]
+    endless[left + count :] = 2 * last - points[count - 2 : count - 2 - right : -1]
+
+
 def end_points(points: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
     """Centres ``e_0`` and ``e_{n-1}`` of the odd reflections, shape (2, d), for n >= 2 points.
 
@@ -66,14 +108,26 @@ def end_points(points: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
     is well conditioned in the useful range (1.38 at (3/10, -3/5, -1/5)); where it is singular, far
     outside, the end points stay where they are and the curve does not reach them.
     """
+    if len(points) >= far(mask):
+        start, end = _centre_weights(mask)
+        return np.stack([start @ points[: len(start)], end @ points[-len(end) :]])
+    return _solved_centres(points, mask)
+
+
+@lru_cache(maxsize=MEMORY)
+def _centre_weights(mask: Mask) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Weights of the first points in ``e_0``, and of the last ones in ``e_{n-1}``, far apart."""
+    size = far(mask)
+    start, end = _solved_centres(np.eye(size), mask)
+    return start[: size // 2], end[size // 2 :]
+
+
+def _solved_centres(points: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
+    """Solve the 2 x 2 system of `end_points`."""
     left, right = reach(mask)
     ends = points[[0, -1]]
     weights = _end_weights(mask)
-    # Only the windows around the two ends matter. A long polygon is replaced by its two end
-    # pieces, which keeps the cost independent of n.
-    near = left + right + 2
-    piece = points if len(points) <= 2 * near else np.concatenate([points[:near], points[-near:]])
-    units = np.zeros((len(piece), 2))
+    units = np.zeros((len(points), 2))
     units[0, 0] = units[-1, 1] = 1.0
 
     def limits(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -82,7 +136,7 @@ def end_points(points: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
         return np.stack([weights @ endless[:size], weights @ endless[-size:]])
 
     try:
-        shift = np.linalg.solve(limits(units), ends - limits(piece))
+        shift = np.linalg.solve(limits(units), ends - limits(points))
     except np.linalg.LinAlgError:
         return ends
     return ends + shift

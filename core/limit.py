@@ -158,17 +158,22 @@ class LimitCurve:
         count = windows.shape[2]
         points = np.empty((2, count, 2**level + 1))
         _multiply(windows, self._basis.span_table(level, order), points)
-        if order == 0 and not self.closed and count:
-            first, last = self.control_points[0], self.control_points[-1]
-            if isinstance(spans, slice):
-                chosen = range(self.spans)[spans]
-                starts = [chosen.index(0)] if 0 in chosen else []
-                ends = [chosen.index(self.spans - 1)] if self.spans - 1 in chosen else []
-                points[:, starts, 0], points[:, ends, -1] = first[:, None], last[:, None]
-            else:
-                points[:, spans == 0, 0] = first[:, None]
-                points[:, spans == self.spans - 1, -1] = last[:, None]
+        if order == 0 and not self.closed:
+            self._pin_ends(points, spans)
         return points.transpose(1, 2, 0)
+
+    def _pin_ends(self, points: NDArray[np.float64], spans: slice | NDArray[np.intp]) -> None:
+        """Put the ends of an open curve, among points of spans (2, k, m), where they belong."""
+        first, last = 0, self.spans - 1
+        if isinstance(spans, slice):
+            chosen = range(*spans.indices(self.spans))
+            if first in chosen:
+                points[:, chosen.index(first), 0] = self.control_points[0]
+            if last in chosen:
+                points[:, chosen.index(last), -1] = self.control_points[-1]
+        else:
+            points[:, spans == first, 0] = self.control_points[0][:, None]
+            points[:, spans == last, -1] = self.control_points[-1][:, None]
 
 
 def span_of(t: float, spans: int, closed: bool) -> tuple[int, float]:

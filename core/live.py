@@ -1,0 +1,122 @@
+"""A limit curve whose control points move, one event after the other."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from core.ends import extended, far, reach, write_ends
+from core.limit import LimitCurve
+from core.mask import Mask
+
+
+class LiveCurve(LimitCurve):
+    """A `LimitCurve` that owns its control points and lets them move.
+
+    It keeps one array of the polygon with its phantom points, and one view of its windows. A move
+    writes the moved points into it, and what follows of them at the ends; neither the time nor the
+    memory depends on the number of points. Spans are evaluated from that array, so nothing adds
+    up: after any number of moves the curve is that of its control points, to rounding.
+
+    Parameters
+    ----------
+    points, mask, closed
+        As for `LimitCurve`. The points are copied.
+
+    Notes
+    -----
+    `control_points` and `endless_points` are read-only views of what moves.
+    """
+
+    def __init__(self, points: ArrayLike, mask: Mask, closed: bool) -> None:
+        super().__init__(points, mask, closed)
+        self._points, self.control_points = _owned(self.control_points)
+        self._store, self._coordinates = _owned(self._coordinates)
+        self._reach = reach(mask)
+        self._far = far(mask)
+
+    def move(self, indices: ArrayLike, positions: ArrayLike) -> tuple[range, ...]:
+        """Put control points at other places.
+
+        Parameters
+        ----------
+        indices
+            One index or several, shape (k,), each within ``range(n)``.
+        positions
+            Their new places, shape (2,) or (k, 2), finite.
+
+        Returns
+        -------
+        tuple of ranges
+            The spans that may have changed, in rising order, disjoint: 18 for one point in general
+            (the curve changes for ``|t - i| < 17/2``), and those that read a moved phantom point.
+        """
+        moved = np.asarray(indices, dtype=np.intp)
+        points, store = self._points, self._store
+        points[moved] = positions
+        count = len(points)
+        if count < self._far:
+            store[:] = extended(points, self.mask, self.closed).T
+            return (range(self.spans),) if self.spans and moved.size else ()
+        if moved.size == 0:
+            return ()
+        left, right = self._reach
+        store[:, left + moved] = points[moved].T
+        if moved.size == 1:
+            low = high = int(moved if moved.ndim == 0 else moved[0])
+        else:
+            low, high = int(moved.min()), int(moved.max())
+        margin = self._far // 2
+        at_start, at_end = low < margin, high >= count - margin
+        if at_start or at_end:
+            write_ends(store.T, points, self.mask, self.closed)
+        if low == high:
+            touched = [(low - 1 - right, low + left + 1)]
+        else:
+            touched = _merged(np.unique(moved), 1 + right, left + 1)
+        if not self.closed:
+            # A centre moves with the points that it is made of, and reflects the spans' windows.
+            if at_start:
+                touched.append((0, left + 1))
+            if at_end:
+                touched.append((count - 2 - right, self.spans))
+        return _within(touched, self.spans, self.closed)
+
+
+def _owned(array: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Array that may be written, and a view of it that may not."""
+    array = array if array.flags.owndata else array.copy()
+    array.flags.writeable = True
+    view = array.view()
+    view.flags.writeable = False
+    return array, view
+
+
+def _merged(indices: NDArray[np.intp], before: int, after: int) -> list[tuple[int, int]]:
+    """Intervals ``[i - before, i + after)`` of rising indices; those that meet become one."""
+    gaps = np.flatnonzero(np.diff(indices) > before + after)
+    starts = indices[np.concatenate([[0], gaps + 1])] - before
+    stops = indices[np.concatenate([gaps, [len(indices) - 1]])] + after
+    return list(zip(starts.tolist(), stops.tolist(), strict=True))
+
+
+def _within(intervals: list[tuple[int, int]], spans: int, closed: bool) -> tuple[range, ...]:
+    """Disjoint ranges in ``range(spans)``: cut off at open ends, carried over a closed one."""
+    parts = []
+    for start, stop in intervals:
+        if stop - start >= spans:
+            return (range(spans),)
+        if closed and start < 0:
+            parts += [(start + spans, spans), (0, stop)]
+        elif closed and stop > spans:
+            parts += [(start, spans), (0, stop - spans)]
+        else:
+            parts.append((max(start, 0), min(stop, spans)))
+    parts.sort()
+    found: list[tuple[int, int]] = []
+    for start, stop in parts:
+        if found and start <= found[-1][1]:
+            found[-1] = found[-1][0], max(stop, found[-1][1])
+        elif start < stop:
+            found.append((start, stop))
+    return tuple(range(start, stop) for start, stop in found)
