@@ -43,3 +43,25 @@ def own_settings(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("settings")
     QSettings.setDefaultFormat(QSettings.Format.IniFormat)
     QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, str(folder))
+
+
+@pytest.fixture
+def canvas(qtbot):
+    """A canvas that shows the polygon of a boat, fitted."""
+    from mouse import boat, shown
+
+    return shown(qtbot, boat())
+
+
+@pytest.fixture
+def session(canvas):
+    """The session of the canvas."""
+    return canvas.session
+
+
+@pytest.fixture
+def mouse(canvas):
+    """A mouse over the canvas."""
+    from mouse import Mouse
+
+    return Mouse(canvas)

@@ -11,22 +11,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app import canvas as canvas_module
 from app import sheet as sheet_module
 from app.session import Selection
-from mouse import RIGHT, Mouse, boat, shown
-
-
-@pytest.fixture
-def canvas(qtbot):
-    return shown(qtbot, boat())
-
-
-@pytest.fixture
-def session(canvas):
-    return canvas.session
-
-
-@pytest.fixture
-def mouse(canvas):
-    return Mouse(canvas)
+from mouse import RIGHT
 
 
 def test_the_mouse_is_told_in_millimetres(canvas, mouse, qtbot):

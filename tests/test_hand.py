@@ -11,22 +11,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit, QVBoxLayout, QWidget
 from app.canvas import Canvas
 from app.session import Selection, Session
 from core.document import Curve, Document
-from mouse import ALT, BOAT, CTRL, LEFT, RIGHT, SHIFT, Mouse, boat, by, shown
-
-
-@pytest.fixture
-def canvas(qtbot):
-    return shown(qtbot, boat())
-
-
-@pytest.fixture
-def session(canvas):
-    return canvas.session
-
-
-@pytest.fixture
-def mouse(canvas):
-    return Mouse(canvas)
+from mouse import ALT, BOAT, CTRL, LEFT, RIGHT, SHIFT, boat, by, shown
 
 
 def test_tab_walks_the_points_and_wraps(canvas, session):

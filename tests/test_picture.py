@@ -9,22 +9,7 @@ from app.session import Selection
 from app.style import DARK, LIGHT
 from core.document import MAX_COORDINATE_MM, Curve, Document
 from core.family import PRESETS, Parameters
-from mouse import BOAT, Mouse, boat, by, shown
-
-
-@pytest.fixture
-def canvas(qtbot):
-    return shown(qtbot, boat())
-
-
-@pytest.fixture
-def session(canvas):
-    return canvas.session
-
-
-@pytest.fixture
-def mouse(canvas):
-    return Mouse(canvas)
+from mouse import BOAT, Mouse, by, shown
 
 
 def picture(canvas):

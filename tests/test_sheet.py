@@ -13,22 +13,7 @@ from app.sheet import EMPTY_HINT, FIRST_HINT, NO_LIMIT_HINT
 from core.document import Curve, Document
 from core.errors import NoLimitError
 from core.family import PRESETS
-from mouse import BOAT, LEFT, MIDDLE, SHIFT, Mouse, boat, by, shown
-
-
-@pytest.fixture
-def canvas(qtbot):
-    return shown(qtbot, boat())
-
-
-@pytest.fixture
-def session(canvas):
-    return canvas.session
-
-
-@pytest.fixture
-def mouse(canvas):
-    return Mouse(canvas)
+from mouse import BOAT, LEFT, MIDDLE, SHIFT, by
 
 
 def wheel(canvas, place, turn, keys=Qt.KeyboardModifier.NoModifier):
