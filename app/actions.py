@@ -196,6 +196,10 @@ COMMANDS: Final = (
     *(_preset(name) for name in PRESETS),
     *(_neighbours(key, tip, key == "translated") for key, tip in NEIGHBOUR_TIPS.items()),
     Command(
+        "report", "&Scheme", "Re&port on this scheme", lambda w: w.show_report(), ("Ctrl+R",),
+        "Show all that is known of the scheme, in words and formulas", section=True,
+    ),
+    Command(
         "zoom in", "&View", "Zoom &in", lambda w: w.canvas.zoom_by(ZOOM_STEP),
         (StandardKey.ZoomIn, "Ctrl++", "Ctrl+="), "Show less, larger", "zoom-in",
     ),

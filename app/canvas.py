@@ -209,7 +209,7 @@ class Canvas(Sheet):
 
     @guarded
     def focusOutEvent(self, event: QFocusEvent) -> None:
-        self._hand.settle()
+        self._hand.blur()
         self.refresh()
         self._after_input()
 

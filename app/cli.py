@@ -231,7 +231,7 @@ def _open_window(
             raise click.UsageError(f"The picture is a PNG file; {screenshot} must end in .png.")
         # The same picture with and without a screen, and no window that flashes up.
         os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    from app.window import run
+    from app.launch import run
 
     return run(path, screenshot, size, theme)
 

@@ -17,10 +17,10 @@ SIDE_PX: Final = 300
 PLOTS_PX: Final = 200
 """Height of the plots: the curve stays the largest thing in the window."""
 
-SCHEME_PX: Final = 236
+SCHEME_PX: Final = 282
 """Height of the scheme panel: all of it, with some air."""
 
-LISTS_PX: Final = 510
+LISTS_PX: Final = 464
 """Height of the lists: what is left of the right side at 1280 x 800."""
 
 CURVES_PX: Final = 92
@@ -36,16 +36,22 @@ class Docks:
     ----------
     window
         The window that they belong to.
-    scheme, curves, points
-        What the panels on the right hold.
+    scheme, curves, points, report
+        What the panels on the right hold; the report is hidden at first.
     """
 
     def __init__(
-        self, window: QMainWindow, scheme: QWidget, curves: QWidget, points: QWidget
+        self,
+        window: QMainWindow,
+        scheme: QWidget,
+        curves: QWidget,
+        points: QWidget,
+        report: QWidget,
     ) -> None:
         self._window = window
         self.scheme = self._dock("Scheme", scheme)
         self.lists = self._dock("Curves and points", _stacked(curves, points))
+        self.report = self._dock("Report", report)
         self.basis = self._dock("Basis function", _waiting())
         self.step = self._dock("Step response", _waiting())
         self.basis_plot: BasisPlot | None = None
@@ -55,13 +61,15 @@ class Docks:
         window.setCorner(Qt.Corner.BottomLeftCorner, Area.BottomDockWidgetArea)
         window.addDockWidget(Area.RightDockWidgetArea, self.scheme)
         window.addDockWidget(Area.RightDockWidgetArea, self.lists)
+        window.tabifyDockWidget(self.lists, self.report)
+        self.report.hide()
         window.addDockWidget(Area.BottomDockWidgetArea, self.basis)
         window.splitDockWidget(self.basis, self.step, Qt.Orientation.Horizontal)
 
     @property
     def all(self) -> tuple[QDockWidget, ...]:
         """The docks, in the order of the View menu."""
-        return (self.scheme, self.lists, self.basis, self.step)
+        return (self.scheme, self.lists, self.report, self.basis, self.step)
 
     def size(self) -> None:
         """Give the docks their first sizes; to be called once the window has its own."""

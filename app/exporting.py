@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -249,19 +248,18 @@ class ExportDialog(QDialog):
 
 
 def trial(document: Document, form: Format, tolerance_mm: float) -> ExportReport:
-    """Report of an export to nowhere: the very numbers that writing the file will give.
+    """Report of an export that is not written: the very numbers that writing will give.
 
     Raises
     ------
     NinepointError
         If the document cannot be exported so.
     """
-    from core.formats import export
+    from core.formats import survey
 
     if not any(len(curve.points) for curve in document.curves):
         raise NinepointError("There is nothing to export yet: the drawing has no points.")
-    with TemporaryDirectory(prefix="ninepoint-") as folder:
-        return export(document, Path(folder) / f"trial.{form.suffix}", tolerance_mm)
+    return survey(document, f"drawing.{form.suffix}", tolerance_mm)
 
 
 def described(report: ExportReport) -> str:

@@ -154,6 +154,13 @@ class Hand:
         if busy is not None:
             busy[0].settle()
 
+    def blur(self) -> None:
+        """Settle, and forget the keys that are held: their release goes elsewhere."""
+        self.settle()
+        self._shift = False
+        if self._pointer is not None:
+            self._pointer = Pointer(self._pointer.pos_px, False)
+
     def drop(self) -> None:
         """Forget what is under way: the document has been replaced."""
         self._busy = None

@@ -101,20 +101,39 @@ def paint_scene(
 
 def paint_hint(painter: QPainter, text: str, palette: Palette, view: QRectF) -> None:
     """Draw a few words near the lower edge, on a ground of their own."""
+    box = _words_box(painter, text)
+    box.moveCenter(view.center())
+    box.moveBottom(view.bottom() - HINT_RISE_PX)
+    _paint_words(painter, text, box, palette, palette.text)
+
+
+def paint_notice(painter: QPainter, text: str, palette: Palette, view: QRectF) -> None:
+    """Draw a sentence that warns near the upper edge, on a ground of its own."""
+    box = _words_box(painter, text)
+    box.moveCenter(view.center())
+    box.moveTop(view.top() + HINT_RISE_PX)
+    _paint_words(painter, text, box, palette, palette.warning)
+
+
+def _words_box(painter: QPainter, text: str) -> QRectF:
+    """Box around some words, somewhere; the painter takes their font."""
     font = QFont(painter.font())
     font.setPointSizeF(HINT_POINTS)
     painter.setFont(font)
     wide, high = HINT_PADDING_PX
     size = QFontMetricsF(font).size(0, text)
-    box = QRectF(0, 0, size.width() + 2 * wide, size.height() + 2 * high)
-    box.moveCenter(view.center())
-    box.moveBottom(view.bottom() - HINT_RISE_PX)
+    return QRectF(0, 0, size.width() + 2 * wide, size.height() + 2 * high)
+
+
+def _paint_words(
+    painter: QPainter, text: str, box: QRectF, palette: Palette, ink: str
+) -> None:
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(color(palette.ruler_line), 1.0))
     painter.setBrush(color(palette.ruler_background, 0.94))
     painter.drawRoundedRect(box, box.height() / 2, box.height() / 2)
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.setPen(color(palette.text))
+    painter.setPen(color(ink))
     painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
 

@@ -16,13 +16,16 @@ from PySide6.QtGui import QFont, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
 from app.guard import guarded
+from app.scene import FINITE_LEVEL, grows
 from app.session import Session
-from app.style import Palette, palette_of
+from app.style import Palette, color, palette_of
 from core.basis import BasicLimitFunction
 from core.document import Document
 from core.errors import NoLimitError
 from core.family import Parameters
-from core.gibbs import StepResponse
+from core.gibbs import Gibbs, StepResponse, step_gibbs
+from core.mask import Mask
+from core.wording import percentage
 
 LEVEL: Final = 5
 """Dyadic level of the drawn functions: 32 points per span, some 10 pixels each at most."""
@@ -51,11 +54,14 @@ COARSE_RANGE: Final = 3.0
 NOTE_SHARE: Final = 0.7
 """Breadth, as a share of the plot's, in which a sentence that explains is broken into lines."""
 
+NOTE_OPACITY: Final = 0.8
+"""Of the ground behind the words where a wild function runs through them."""
+
 WIDEST: Final = 4.0
 """Largest value that the range grows to; a function that runs away is cut off there."""
 
 LEAST_PEAK: Final = 1e-6
-"""Overshoot below this is not marked: it could not be seen, nor told from the sampling."""
+"""Overshoot below this is not marked: it could not be seen."""
 
 CURVE_PX: Final = 1.5
 """Width of the plotted line: wider ones cost many times more to draw."""
@@ -82,6 +88,7 @@ class AnalysisPlot(pg.PlotWidget):
         super().__init__(parent)
         self._least = least
         self._range: tuple[float, float] | None = None
+        self._is_wild = False
         self.setAccessibleName(name)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         item = self.getPlotItem()
@@ -98,6 +105,7 @@ class AnalysisPlot(pg.PlotWidget):
         self.zero = pg.InfiniteLine(0.0, angle=0)
         self.curve = pg.PlotCurveItem(antialias=True)
         self.note = pg.TextItem(anchor=(0.5, 0.0))
+        self.note.setZValue(10)
         for part in (self.zero, self.curve, self.note):
             item.addItem(part, ignoreBounds=True)
         self._parts: tuple[pg.GraphicsObject, ...] = (self.zero, self.curve)
@@ -131,9 +139,9 @@ class AnalysisPlot(pg.PlotWidget):
         """Draw the function of other parameters, or say why there is none."""
         try:
             sentence = self.draw(parameters)
-            found = True
+            found, self._is_wild = True, grows(parameters.mask)
         except NoLimitError as error:
-            sentence, found = str(error), False
+            sentence, found, self._is_wild = str(error), False, False
             self.curve.setData([], [])
         for part in self._parts:
             part.setVisible(found)
@@ -141,6 +149,7 @@ class AnalysisPlot(pg.PlotWidget):
         if self.note.textItem.toPlainText() != sentence:
             self.note.setText(sentence)
         self.note.setTextWidth(-1 if found else self.width() * NOTE_SHARE)
+        self._ground_note()
         self._place_note()
 
     def _show_curve(self, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
@@ -156,6 +165,12 @@ class AnalysisPlot(pg.PlotWidget):
         item.setYRange(low, high, padding=0)
         ticks = (-2, 0, 2, 4) if high - low > COARSE_RANGE else (0, 0.5, 1)
         item.getAxis("left").setTicks([[(v, _tick(v)) for v in ticks if low <= v <= high]])
+
+    def _ground_note(self) -> None:
+        """Give the words a ground of their own where a wild function runs through them."""
+        ground = color(palette_of(self).plot_background, NOTE_OPACITY if self._is_wild else 0.0)
+        self.note.fill = pg.mkBrush(ground)
+        self.note.update()
 
     def _place_note(self) -> None:
         _, (_, top) = self.getPlotItem().viewRange()
@@ -179,6 +194,7 @@ class AnalysisPlot(pg.PlotWidget):
         self.zero.setPen(pg.mkPen(colours.axis, width=ratio))
         self.curve.setPen(pg.mkPen(colours.plot_curve, width=CURVE_PX * ratio))
         self.note.setColor(colours.text)
+        self._ground_note()
         self.note.setFont(font)
         self.paint_with(colours, ratio)
 
@@ -217,8 +233,8 @@ class BasisPlot(AnalysisPlot):
     def draw(self, parameters: Parameters) -> str:
         """Plot phi(t), its support shaded; the words name the support."""
         phi = BasicLimitFunction(parameters.mask)
-        values = phi.values(LEVEL)
-        self._show_curve(phi.parameters(LEVEL), values)
+        level = _level(parameters.mask)
+        self._show_curve(phi.parameters(level), phi.values(level))
         left, right = phi.support
         self.support.setRegion((float(left), float(right)))
         return f"\u03c6(t) \u00b7 support {_tick(left)} \u2026 {_tick(right)}"
@@ -244,21 +260,22 @@ class StepPlot(AnalysisPlot):
         self._parts = (*self._parts, self.one, self.peaks)
 
     def draw(self, parameters: Parameters) -> str:
-        """Plot S(t), from 1 before its support to 0 behind it; the words give its extremes."""
-        response = StepResponse(parameters.mask)
-        t = BasicLimitFunction(parameters.mask).parameters(LEVEL)
-        values = response.values(LEVEL)
+        """Plot S(t), from 1 before its support to 0 behind it, with its proven extremes."""
+        mask = parameters.mask
+        level = _level(mask)
+        t = BasicLimitFunction(mask).parameters(level)
+        values = StepResponse(mask).values(level)
         outside_t = np.concatenate([[-HALF_WIDTH - 1], t, [HALF_WIDTH + 1]])
         outside = np.concatenate([[1.0], values, [0.0]])
         self._show_curve(outside_t, outside)
-        over, under = response.overshoot, response.undershoot
+        gibbs = step_gibbs(mask)
         peaks = []
-        if over > LEAST_PEAK:
+        if LEAST_PEAK < gibbs.overshoot.upper < np.inf:
             peaks.append((t[values.argmax()], min(values.max(), WIDEST)))
-        if under > LEAST_PEAK:
+        if LEAST_PEAK < gibbs.undershoot.upper < np.inf:
             peaks.append((t[values.argmin()], max(values.min(), -WIDEST)))
         self.peaks.setData(pos=np.reshape(peaks, (-1, 2)))
-        return f"overshoot {_percent(over)} \u00b7 undershoot {_percent(under)}"
+        return described(gibbs)
 
     def paint_with(self, colours: Palette, ratio: float) -> None:
         """Colour the level of the data and the marks at the peaks."""
@@ -276,11 +293,14 @@ def _tick(value: object) -> str:
     return str(value).replace("-", "\N{MINUS SIGN}")
 
 
-def _percent(share: float) -> str:
-    """A share in percent, with two decimals as long as they say something."""
-    percent = 100 * share
-    if percent == 0 or percent < 100 * LEAST_PEAK:
-        return "0 %"
-    if percent < 0.01:
-        return "< 0.01 %"
-    return f"{percent:.2f} %" if percent < 100 else f"{percent:.0f} %"
+def described(gibbs: Gibbs) -> str:
+    """Overshoot and undershoot of a step response in words, in as many digits as are proven."""
+    if np.isinf(gibbs.overshoot.upper) and np.isinf(gibbs.undershoot.upper):
+        return "overshoot and undershoot: no bound proven"
+    over, under = percentage(gibbs.overshoot), percentage(gibbs.undershoot)
+    return f"overshoot {over} \u00b7 undershoot {under}"
+
+
+def _level(mask: Mask) -> int:
+    """Dyadic level at which a function is drawn: a coarse one where finer ones only grow."""
+    return FINITE_LEVEL if grows(mask) else LEVEL

@@ -17,11 +17,12 @@ from app.camera import Camera
 from app.handles import CurveHit, PointHit
 from app.polyline import closed_up
 from app.style import SIZES
-from core.detail import detailed, span_levels
+from core.detail import chord_profile, detailed, span_levels
 from core.document import Curve, Document
 from core.errors import NoLimitError
 from core.family import Parameters
 from core.limit import LimitCurve
+from core.mask import Mask
 
 TOLERANCE_PX: Final = 0.25
 """Admitted distance between the curve and its drawn chords, in device pixels."""
@@ -34,6 +35,10 @@ RIBBON_VERTICES: Final = 2048
 
 FAINT: Final = 0.004
 """Share of the hand's move below which an influence is not drawn."""
+
+
+FINITE_LEVEL: Final = 2
+"""Dyadic level at which a curve is drawn that refinement does not bring to rest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,11 +201,19 @@ class Scene:
         if limit is None:
             t, vertices = np.zeros(0), np.zeros((0, 2))
         else:
-            tolerance = TOLERANCE_PX / self._ratio * camera.pixel_mm
-            levels = span_levels(limit, tolerance, BUDGET, camera.rectangle_mm())
+            if grows(limit.mask):
+                levels = np.full(limit.spans, FINITE_LEVEL)
+            else:
+                levels = self._levels(limit)
             t, vertices = detailed(limit, levels)
         points_px = camera.to_pixels(curve.points)
         return Drawn(curve, limit, t, camera.to_pixels(vertices), points_px)
+
+    def _levels(self, limit: LimitCurve) -> NDArray[np.intp]:
+        """Dyadic level of each span at which its chords look like the curve."""
+        camera = self._camera
+        tolerance = TOLERANCE_PX / self._ratio * camera.pixel_mm
+        return span_levels(limit, tolerance, BUDGET, camera.rectangle_mm())
 
     def _ghosts(
         self, document: Document, origin: Document, moved: bool
@@ -248,6 +261,12 @@ def _limit(curve: Curve, parameters: Parameters) -> LimitCurve | None:
         return curve.limit(parameters)
     except NoLimitError:
         return None
+
+
+def grows(mask: Mask) -> bool:
+    """Whether finer chords miss the curve by more: there is nothing then that they converge to."""
+    errors = chord_profile(mask).sum(axis=1)
+    return bool(errors[-1] >= errors[-2] > 0)
 
 
 def _joined(spans: NDArray[np.float64]) -> NDArray[np.float64]:

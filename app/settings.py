@@ -14,7 +14,7 @@ MAX_RECENT: Final = 10
 MIN_VISIBLE_PX: Final = 48
 """What must show of a window, each way, to take hold of it and move it."""
 
-STATE_VERSION: Final = 1
+STATE_VERSION: Final = 2
 """Raised when docks or tool bars are renamed, so that an old arrangement is not restored."""
 
 

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QWidget
 from app.camera import Camera
 from app.grid import Background
 from app.guard import guarded
-from app.picture import HINT_ROOM_PX, paint_cursor_marks, paint_hint, paint_scene
+from app.picture import HINT_ROOM_PX, paint_cursor_marks, paint_hint, paint_notice, paint_scene
 from app.scene import NOTHING, Overlay, Scene
 from app.session import Selection, Session
 from app.style import SIZES, color, palette_of
@@ -66,6 +66,7 @@ class Sheet(QWidget):
         self._paper = QPixmap()
         self._is_stale = True
         self._shown_overlay: Overlay = NOTHING
+        self._notice = ""
         self._show_polygon = self._show_grid = True
         self._first_document = session.document
         self._is_taught = session.undo_name is not None
@@ -154,6 +155,12 @@ class Sheet(QWidget):
         if not self._redraw.isActive():
             self._redraw.start()
 
+    def show_notice(self, sentence: str) -> None:
+        """Show a sentence that stays above the drawing, such as a warning, or none."""
+        if sentence != self._notice:
+            self._notice = sentence
+            self.refresh()
+
     def mark_mouse(self, position: QPointF | None) -> None:
         """Mark a place on the rulers, or none."""
         self._mouse = position
@@ -176,6 +183,8 @@ class Sheet(QWidget):
                 )  # fmt: skip
                 if words := self.words():
                     paint_hint(painter, words, palette, content)
+                if self._notice and self.session.document.curves:
+                    paint_notice(painter, self._notice, palette, content)
                 painter.setClipping(False)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
             if self._mouse is not None:

@@ -1,4 +1,4 @@
-"""The scheme panel: preset, the three parameters, the choice of neighbours."""
+"""The scheme panel: preset, the three parameters, the choice of neighbours, what is proven."""
 
 from __future__ import annotations
 
@@ -22,18 +22,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.badge import Badge
 from app.fields import NumberField, shown_number
 from app.guard import guarded
 from app.session import Session
 from app.track import Track
 from core.document import Document
-from core.family import PRESETS, Neighbours, Parameters
+from core.family import PRESETS, Neighbours, Parameters, default_box
 
 STEPS_PER_UNIT: Final = 200
 """Positions of a slider per unit: steps of 0.005, which are exact and short in decimals."""
-
-RANGE: Final = 1
-"""The sliders reach from -1 to 1: every preset, and what lies between them and beyond."""
 
 BURST_MS: Final = 600
 """Arrow presses that follow each other within this time are one step of undo."""
@@ -91,7 +89,7 @@ WEIGHTS: Final = (
 
 
 class SchemePanel(QWidget):
-    """Preset menu, three sliders with number fields, and the neighbours' switch.
+    """Preset menu, three sliders with number fields, the neighbours' switch, and the badge.
 
     What the session changes is shown and never comes back as an edit; a drag, or a burst of arrow
     keys, is one step of undo.
@@ -128,6 +126,8 @@ class SchemePanel(QWidget):
         self._add_presets(layout)
         self._add_weights(layout)
         self._add_neighbours(layout)
+        self.badge = Badge()
+        layout.addWidget(self.badge)
         layout.addStretch()
         session.changed.connect(self._on_changed)
         self._show(session.document.parameters)
@@ -161,7 +161,7 @@ class SchemePanel(QWidget):
         grid.setColumnStretch(1, 1)
         for row, weight in enumerate(WEIGHTS):
             label = ResetLabel(weight.symbol)
-            track = Track(RANGE * STEPS_PER_UNIT)
+            track = Track()
             field = NumberField(weight.name, partial(_check, weight.name))
             tip = weight.tip + " Double click resets."
             label.setToolTip(tip)
@@ -277,9 +277,13 @@ class SchemePanel(QWidget):
     def _show(self, parameters: Parameters) -> None:
         self._showing = True
         try:
+            box = default_box(parameters.neighbours)
             for weight in WEIGHTS:
                 value: Fraction = getattr(parameters, weight.name)
-                self.tracks[weight.name].show_value(
+                track = self.tracks[weight.name]
+                # All members within these ranges converge, and the rest can still be typed.
+                track.setRange(*(round(end * STEPS_PER_UNIT) for end in box[weight.name]))
+                track.show_value(
                     round(value * STEPS_PER_UNIT), round(default(weight.name) * STEPS_PER_UNIT)
                 )
                 self.fields[weight.name].set_number(value)

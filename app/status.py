@@ -5,10 +5,14 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QWidget
+from PySide6.QtCore import QEvent, QTimer
+from PySide6.QtGui import QColor, QPalette
+from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QToolButton, QWidget
 
+from app.analysis import Finding
+from app.guard import guarded
 from app.session import Session
+from app.style import palette_of
 from core.document import Document
 from core.errors import NinepointError
 
@@ -40,12 +44,19 @@ class StatusBar(QStatusBar):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
+        self._warns = False
         self.hint = QLabel()
         self.hint.setAccessibleName("Hint")
         self.hint.setIndent(8)
         # A long hint is cut off rather than making the window wider.
         self.hint.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.addWidget(self.hint, 1)
+        self.proof = QToolButton()
+        self.proof.setAutoRaise(True)
+        self.proof.setAccessibleName("What is proven of the scheme")
+        widest = "C\u00b9\u00b9 proven, not C\u00b9\u00b2"
+        self.proof.setMinimumWidth(self.proof.fontMetrics().horizontalAdvance(widest) + 12)
+        self.addPermanentWidget(self.proof)
         self.size_label = self._figure("Size of the drawing", "9999.99 \u00d7 9999.99 mm")
         self.zoom_label = self._figure("Zoom", "100000 %")
         self.cursor_label = self._figure("Cursor", "\N{MINUS SIGN}9999.99, \N{MINUS SIGN}9999.99")
@@ -69,6 +80,16 @@ class StatusBar(QStatusBar):
         """Show a sentence for a while."""
         self.showMessage(sentence, MESSAGE_MS)
 
+    def show_finding(self, finding: Finding) -> None:
+        """Show the class that is proven; a click asks for the report."""
+        if self.proof.text() == finding.statement:
+            return
+        self.proof.setText(finding.statement)
+        self.proof.setToolTip("What is proven of the scheme: click for the report (Ctrl+R)")
+        self._warns = not finding.is_convergent
+        self._colour()
+        self._timer.start()
+
     def show_zoom(self, scale: float) -> None:
         """Show the zoom, given in logical pixels per mm, in percent of real size."""
         percent = 100 * scale * MM_PER_INCH / self.logicalDpiX()
@@ -85,10 +106,25 @@ class StatusBar(QStatusBar):
     def measure(self) -> None:
         """Show the size of the drawing as it is now."""
         size = drawn_size(self._session.document)
-        if size is None:
+        if self._warns:
+            self.size_label.setText("no finite size")
+        elif size is None:
             self.size_label.setText("empty")
         else:
             self.size_label.setText(f"{size[0]:.2f} \u00d7 {size[1]:.2f} mm")
+
+    def _colour(self) -> None:
+        palette = QPalette()
+        if self._warns:
+            palette.setColor(QPalette.ColorRole.ButtonText, QColor(palette_of(self).warning))
+        self.proof.setPalette(palette)
+
+    @guarded
+    def changeEvent(self, event: QEvent) -> None:
+        """Take over the colours of another scheme."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_warns"):
+            self._colour()
 
     def _on_changed(self, old: Document, new: Document) -> None:
         if old.curves is not new.curves or old.parameters is not new.parameters:

@@ -39,15 +39,10 @@ FINE: Final = 10
 
 
 class Track(QSlider):
-    """A horizontal slider from ``-reach`` to ``reach`` that tells gestures from single steps.
+    """A horizontal slider that tells gestures from single steps.
 
     A press takes the handle to the mouse; with Shift it moves finely. The default has a mark, and
     a double click asks for it.
-
-    Parameters
-    ----------
-    reach
-        Largest position; the smallest is its negative.
 
     Signals
     -------
@@ -69,9 +64,8 @@ class Track(QSlider):
     reset = Signal()
     blurred = Signal()
 
-    def __init__(self, reach: int, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(Qt.Orientation.Horizontal, parent)
-        self.setRange(-reach, reach)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._mark = 0

@@ -1,13 +1,12 @@
-"""The window: canvas, panels, menus and status bar put together, and `run`, which shows it."""
+"""The window: canvas, panels, menus and status bar put together."""
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QEvent, QEventLoop, QPoint, QRect, QSettings, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -15,27 +14,25 @@ from PySide6.QtGui import (
     QGuiApplication,
     QPaintEvent,
 )
-from PySide6.QtWidgets import QApplication, QMainWindow, QToolBar, QWidget
+from PySide6.QtWidgets import QMainWindow, QToolBar, QWidget
 
 from app.actions import TOOL_BAR, Actions
+from app.analysis import Analysis, Finding
 from app.canvas import Canvas
 from app.dialogs import Dialogs
 from app.docks import Docks
 from app.exporting import Exporter
-from app.failures import Failures
 from app.files import Files
 from app.guard import guarded
-from app.icons import program_icon
 from app.menus import fill_menu_bar, open_context_menu
 from app.opening import ready_document
 from app.panels import CurvesPanel, PointsPanel
+from app.report_panel import ReportPanel
 from app.session import Selection, Session
 from app.settings import STATE_VERSION, Settings, on_screen
 from app.sliders import SchemePanel
 from app.status import StatusBar
-from app.theme import Look
 from core.document import Curve
-from core.errors import FileError
 
 DEFAULT_SIZE: Final = (1280, 800)
 """Size of the window at the first start, in logical pixels."""
@@ -91,8 +88,10 @@ class MainWindow(QMainWindow):
         self.scheme = SchemePanel(self.session)
         self.curves = CurvesPanel(self.session)
         self.points = PointsPanel(self.session)
+        self.report = ReportPanel()
+        self.analysis = Analysis(self.session, self)
         self.setCentralWidget(self.canvas)
-        self.docks = Docks(self, self.scheme, self.curves, self.points)
+        self.docks = Docks(self, self.scheme, self.curves, self.points, self.report)
         self.status = StatusBar(self.session, self)
         self.setStatusBar(self.status)
         self.commands = Actions(self)
@@ -131,7 +130,10 @@ class MainWindow(QMainWindow):
         canvas.zoom_changed.connect(status.show_zoom)
         canvas.tool_changed.connect(lambda _tool: self.commands.refresh())
         canvas.customContextMenuRequested.connect(lambda at: open_context_menu(self, at))
-        for teller in (self.files.told, self.exporter.told):
+        self.analysis.changed.connect(self._show_finding)
+        self.report.read.connect(self.analysis.want_report)
+        status.proof.clicked.connect(self.commands["report"].trigger)
+        for teller in (self.files.told, self.exporter.told, self.report.told):
             teller.connect(status.tell)
         for refuser in (self.scheme.refused, self.points.refused):
             refuser.connect(status.tell)
@@ -204,6 +206,12 @@ class MainWindow(QMainWindow):
         self.restoreState(self._first_arrangement, STATE_VERSION)
         self.docks.size()
 
+    def show_report(self) -> None:
+        """Open the report on the scheme, and read it with the keyboard."""
+        self.docks.report.show()
+        self.docks.report.raise_()
+        self.report.page.setFocus()
+
     def show_keys(self) -> None:
         """Show the sheet of keys."""
         from app.keysheet import KeySheet  # rarely wanted
@@ -241,6 +249,12 @@ class MainWindow(QMainWindow):
         self.settings.maximised = self.isMaximized()
         self.settings.arrangement = self.saveState(STATE_VERSION)
 
+    def _show_finding(self, finding: Finding) -> None:
+        self.scheme.badge.show_finding(finding)
+        self.status.show_finding(finding)
+        self.canvas.show_notice(finding.notice)
+        self.report.show_finding(finding)
+
     def _show_title(self) -> None:
         # Qt replaces "[*]" by the mark of unsaved changes; doubled it is taken as it stands.
         name = self.files.title.replace("[*]", "[*][*]")
@@ -249,6 +263,7 @@ class MainWindow(QMainWindow):
 
     def _complete(self) -> None:
         self.docks.plot(self.session)
+        self.analysis.start()
         QTimer.singleShot(0, self, self.completed.emit)
 
     @guarded
@@ -279,6 +294,7 @@ class MainWindow(QMainWindow):
         event.ignore()  # stands if anything below fails: better open than lost
         if self.files.may_leave():
             self._remember()
+            self.analysis.stop()
             event.accept()
 
     @guarded
@@ -304,81 +320,3 @@ class MainWindow(QMainWindow):
 def _local_paths(event: QDropEvent) -> list[Path]:
     data = event.mimeData()
     return [Path(url.toLocalFile()) for url in data.urls() if url.isLocalFile()]
-
-
-def run(
-    path: Path | None = None,
-    screenshot: Path | None = None,
-    size: tuple[int, int] | None = None,
-    theme: str = "system",
-) -> int:
-    """Show the window until it is closed, or draw it into a picture.
-
-    Parameters
-    ----------
-    path
-        File to open; else the window opens on a ready shape.
-    screenshot
-        Where to write a picture of the window (PNG) instead of waiting for the user. Settings are
-        neither read nor written then.
-    size
-        Size of the window in logical pixels; the last one, or 1280 x 800, by default.
-    theme
-        "system", "light" or "dark".
-
-    Returns
-    -------
-    int
-        Exit status, 0 if all went well.
-
-    Raises
-    ------
-    NinepointError
-        If a picture was asked for and the file cannot be read or the picture not be written;
-        without ``screenshot`` the user is told in the window instead.
-    """
-    present = QApplication.instance()
-    application = present if isinstance(present, QApplication) else QApplication(sys.argv[:1])
-    application.setOrganizationName("Ninepoint")
-    application.setApplicationName("Ninepoint")
-    application.setDesktopFileName("ninepoint")
-    application.setWindowIcon(program_icon())
-    look = Look(application, theme)
-    window = MainWindow(settings=Settings(None if screenshot else QSettings()))
-    hook = sys.excepthook
-    Failures(window).install()
-    try:
-        if screenshot is not None:
-            return _draw(window, path, screenshot, size or DEFAULT_SIZE)
-        window.restore()
-        if size is not None:
-            window.resize(*size)
-        window.show()
-        if path is not None:
-            window.files.open_path(path)  # before the first paint, but its errors have a parent
-        return application.exec()
-    finally:
-        sys.excepthook = hook
-        look.deleteLater()
-        window.deleteLater()
-
-
-def _draw(window: MainWindow, path: Path | None, picture: Path, size: tuple[int, int]) -> int:
-    """Write a picture of the complete window; errors are raised, there is nobody to be asked."""
-    if path is not None:
-        from core.formats import open_document
-
-        window.files.show_document(open_document(path), path)
-    loop = QEventLoop()
-    window.completed.connect(loop.quit)
-    window.resize(*size)
-    window.show()
-    loop.exec()
-    window.grab()  # what the plots lay out in their first paint is in its place in the second
-    QTimer.singleShot(0, loop, loop.quit)
-    loop.exec()
-    written = window.grab().save(str(picture), "PNG")
-    window.hide()
-    if not written:
-        raise FileError(picture, "the picture cannot be written there.")
-    return 0

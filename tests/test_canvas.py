@@ -87,3 +87,12 @@ def test_the_canvas_has_a_name_for_screen_readers(canvas):
     assert canvas.accessibleName()
     assert "Tab" in canvas.accessibleDescription()
     assert canvas.focusPolicy() == Qt.FocusPolicy.StrongFocus
+
+
+def test_shift_is_forgotten_when_the_focus_goes(canvas, mouse, session):
+    mouse.move(mouse.point(2))
+    calm = canvas.hint
+    QTest.keyPress(canvas, Qt.Key.Key_Shift, Qt.KeyboardModifier.ShiftModifier)
+    assert canvas.hint != calm
+    canvas.clearFocus()
+    assert canvas.hint == calm

@@ -44,9 +44,9 @@ def run(capsys):
 def window(monkeypatch):
     """What the window was called with, instead of a window."""
     calls = []
-    stand_in = ModuleType("app.window")
+    stand_in = ModuleType("app.launch")
     stand_in.run = lambda *args: calls.append(args) or 0
-    monkeypatch.setitem(sys.modules, "app.window", stand_in)
+    monkeypatch.setitem(sys.modules, "app.launch", stand_in)
     monkeypatch.setenv("QT_QPA_PLATFORM", "offscreen")
     return calls
 
@@ -203,7 +203,7 @@ def test_without_a_command_the_window_opens(folder, run, window):
 
 
 def test_the_status_of_the_window_is_that_of_the_program(run, window, monkeypatch):
-    monkeypatch.setattr(sys.modules["app.window"], "run", lambda *args: 3)
+    monkeypatch.setattr(sys.modules["app.launch"], "run", lambda *args: 3)
     assert run()[0] == 3
 
 
@@ -243,7 +243,7 @@ def test_no_fault_shows_a_traceback(run, window, monkeypatch, fault, status, sen
     def fail(*args):
         raise fault
 
-    monkeypatch.setattr(sys.modules["app.window"], "run", fail)
+    monkeypatch.setattr(sys.modules["app.launch"], "run", fail)
     code, output, errors = run()
     assert (code, output) == (status, "")
     assert errors.splitlines()[-1].startswith(f"ninepoint: {sentence}")
@@ -253,7 +253,7 @@ def test_missing_libraries_of_qt_are_left_to_the_entry_point(window, monkeypatch
     def fail(*args):
         raise ImportError("libEGL.so.1")
 
-    monkeypatch.setattr(sys.modules["app.window"], "run", fail)
+    monkeypatch.setattr(sys.modules["app.launch"], "run", fail)
     with pytest.raises(ImportError, match="libEGL"):
         cli.main([])
 

@@ -6,7 +6,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from app.opening import ready_document
-from app.plots import LEVEL, BasisPlot, StepPlot
+from app.plots import LEVEL, WIDEST, BasisPlot, StepPlot
+from app.scene import FINITE_LEVEL
 from app.session import Session
 from app.style import DARK, LIGHT
 from app.theme import window_palette
@@ -74,10 +75,10 @@ def test_the_support_is_named(basis, session, name, support):
 @pytest.mark.parametrize(
     ("name", "sentence", "marks"),
     [
-        ("Lagrange", "overshoot 11.78 % \u00b7 undershoot 11.78 %", 2),
-        ("Calm", "overshoot 0.03 % \u00b7 undershoot 0.03 %", 2),
-        ("Lean", "overshoot 0 % \u00b7 undershoot 6.13 %", 1),
-        ("B-spline", "overshoot 0 % \u00b7 undershoot 0 %", 0),
+        ("Lagrange", "overshoot 11.7770863 % \u00b7 undershoot 11.7770863 %", 2),
+        ("Calm", "overshoot 0.0309781 % \u00b7 undershoot 0.0309781 %", 2),
+        ("Lean", "overshoot none seen above 9e-10 \u00b7 undershoot 6.1262567 %", 1),
+        ("B-spline", "overshoot none, proven \u00b7 undershoot none, proven", 0),
     ],
 )
 def test_the_step_plot_says_how_far_it_overshoots(step, session, name, sentence, marks):
@@ -85,6 +86,20 @@ def test_the_step_plot_says_how_far_it_overshoots(step, session, name, sentence,
     choose(session, PRESETS[name])
     assert step.sentence == sentence
     assert len(step.peaks.data) == marks
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [Parameters(100, -100, 100), Parameters(10, 0, 0), Parameters(1, 0, -1, "mirrored")],
+)
+def test_a_divergent_scheme_is_drawn_at_a_finite_level(basis, step, session, parameters):
+    choose(session, parameters)
+    for plot in (basis, step):
+        t, values = plot.curve.getData()
+        assert len(t) <= 17 * 2**FINITE_LEVEL + 3
+        assert np.abs(values).max() <= WIDEST
+    assert step.sentence == "overshoot and undershoot: no bound proven"
+    assert len(step.peaks.data) == 0
 
 
 def test_the_step_runs_from_one_to_zero(step):
@@ -112,7 +127,7 @@ def test_presets_share_one_range(plot, session):
 
 
 def test_a_scheme_without_a_limit_clears_the_plot_and_says_so(plot, session, monkeypatch):
-    def refuse(self, level):
+    def refuse(self, level, order=0):
         raise NoLimitError("There is no limit.")
 
     monkeypatch.setattr(BasicLimitFunction, "values", refuse)

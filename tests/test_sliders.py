@@ -1,3 +1,4 @@
+import re
 from fractions import Fraction
 
 import pytest
@@ -8,8 +9,18 @@ from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 
 from app.opening import ready_document
 from app.session import Session
-from app.sliders import CUSTOM, PRESET_TIPS, STEPS_PER_UNIT, SchemePanel
-from core.family import PRESETS, Parameters
+from app.sliders import (
+    CUSTOM,
+    NEIGHBOUR_TIPS,
+    PRESET_TIPS,
+    STEPS_PER_UNIT,
+    SchemePanel,
+    default,
+)
+from core.continuity import smoothness
+from core.family import PRESETS, Parameters, default_box
+from core.gibbs import step_gibbs
+from core.wording import class_name
 
 Key = Qt.Key
 LEFT = Qt.MouseButton.LeftButton
@@ -118,7 +129,7 @@ def test_shift_moves_finely(panel, session):
     for modifier, way in ((Qt.KeyboardModifier.NoModifier, 40), (SHIFT, 4)):
         QTest.mousePress(track, LEFT, modifier, start)
         QTest.mouseMove(track, start)
-        steps = 40 * 2 * STEPS_PER_UNIT / track._length * way / 40
+        steps = (track.maximum() - track.minimum()) / track._length * way
         QApplication.sendEvent(track, moved(track, start + QPoint(40, 0), modifier))
         assert track.value() == pytest.approx(-STEPS_PER_UNIT / 2 + steps, abs=1)
         QTest.keyClick(track, Key.Key_Escape)
@@ -253,6 +264,43 @@ def test_a_preset_is_one_step_and_is_recognised(panel, session, name):
 
 def test_every_preset_has_a_tip():
     assert set(PRESET_TIPS) == set(PRESETS)
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_the_numbers_in_the_tips_are_proven(name):
+    tip, mask = PRESET_TIPS[name], PRESETS[name].mask
+    (told,) = re.findall(r"C[\N{SUPERSCRIPT ONE}\u00b2\u00b3\u2070-\u2079]+", tip)
+    assert told == class_name(smoothness(mask).order)
+    assert class_name(smoothness(mask).not_class) == class_name(smoothness(mask).order + 1)
+    gibbs = step_gibbs(mask)
+    for number in re.findall(r"([\d.]+) %", tip):
+        decimals = len(number.partition(".")[2])
+        assert number == f"{100 * gibbs.overshoot.lower:.{decimals}f}"
+    assert ("never overshoots" in tip) is (gibbs.overshoot.upper == gibbs.undershoot.upper == 0)
+
+
+def test_the_tip_of_mirrored_neighbours_is_proven():
+    assert "at most C\N{SUPERSCRIPT TWO}" in NEIGHBOUR_TIPS["mirrored"]
+    for lean in ("1/100", "1/10", "3/10"):
+        assert smoothness(Parameters(lean, "-1/2", 0, "mirrored").mask).not_class <= 3
+
+
+@pytest.mark.parametrize("key", NEIGHBOUR_TIPS)
+def test_the_tracks_reach_over_the_proven_box(panel, session, key):
+    panel.neighbours[key].click()
+    for name, ends in default_box(key).items():
+        track = panel.tracks[name]
+        assert (track.minimum(), track.maximum()) == tuple(end * STEPS_PER_UNIT for end in ends)
+        assert track.minimum() <= default(name) * STEPS_PER_UNIT <= track.maximum()
+
+
+def test_another_box_changes_no_number(panel, session):
+    session.edit(session.document.with_parameters(Parameters("1/2", "-5/4", "-1/2")), "Set")
+    panel.neighbours["mirrored"].click()
+    assert session.document.parameters == Parameters("1/2", "-5/4", "-1/2", "mirrored")
+    assert panel.tracks["alpha"].value() == panel.tracks["alpha"].maximum()
+    assert panel.fields["alpha"].text() == "0.5"
+    assert states(session) == 2
 
 
 def test_the_neighbours_switch_keeps_the_weights(panel, session):

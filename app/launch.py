@@ -1,0 +1,118 @@
+"""The start of the program: application, look and window, shown or drawn into a picture."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Final
+
+from PySide6.QtCore import (
+    QEventLoop,
+    QMessageLogContext,
+    QSettings,
+    QTimer,
+    QtMsgType,
+    qFormatLogMessage,
+    qInstallMessageHandler,
+)
+from PySide6.QtWidgets import QApplication
+
+from app.failures import Failures
+from app.icons import program_icon
+from app.settings import Settings
+from app.theme import Look
+from app.window import DEFAULT_SIZE, MainWindow
+from core.errors import FileError
+
+IDLE_MESSAGE: Final = "This plugin does not support propagateSizeHints()"
+"""What Qt says of each window on a screen that is not there; it means nothing to the user."""
+
+
+def run(
+    path: Path | None = None,
+    screenshot: Path | None = None,
+    size: tuple[int, int] | None = None,
+    theme: str = "system",
+) -> int:
+    """Show the window until it is closed, or draw it into a picture.
+
+    Parameters
+    ----------
+    path
+        File to open; else the window opens on a ready shape.
+    screenshot
+        Where to write a picture of the window (PNG) instead of waiting for the user. Settings are
+        neither read nor written then.
+    size
+        Size of the window in logical pixels; the last one, or 1280 x 800, by default.
+    theme
+        "system", "light" or "dark".
+
+    Returns
+    -------
+    int
+        Exit status, 0 if all went well.
+
+    Raises
+    ------
+    NinepointError
+        If a picture was asked for and the file cannot be read or the picture not be written;
+        without ``screenshot`` the user is told in the window instead.
+    """
+    present = QApplication.instance()
+    application = present if isinstance(present, QApplication) else QApplication(sys.argv[:1])
+    application.setOrganizationName("Ninepoint")
+    application.setApplicationName("Ninepoint")
+    application.setDesktopFileName("ninepoint")
+    application.setWindowIcon(program_icon())
+    look = Look(application, theme)
+    window = MainWindow(settings=Settings(None if screenshot else QSettings()))
+    hook = sys.excepthook
+    Failures(window).install()
+    before = qInstallMessageHandler(_tell)
+    try:
+        if screenshot is not None:
+            return _draw(window, path, screenshot, size or DEFAULT_SIZE)
+        window.restore()
+        if size is not None:
+            window.resize(*size)
+        window.show()
+        if path is not None:
+            window.files.open_path(path)  # before the first paint, but its errors have a parent
+        return application.exec()
+    finally:
+        sys.excepthook = hook
+        qInstallMessageHandler(before)
+        window.analysis.stop()
+        look.deleteLater()
+        window.deleteLater()
+
+
+def _draw(window: MainWindow, path: Path | None, picture: Path, size: tuple[int, int]) -> int:
+    """Write a picture of the complete window; errors are raised, there is nobody to be asked."""
+    if path is not None:
+        from core.formats import open_document
+
+        window.files.show_document(open_document(path), path)
+    loop = QEventLoop()
+    window.completed.connect(loop.quit)
+    window.resize(*size)
+    window.show()
+    loop.exec()
+    if not window.analysis.is_at_rest:
+        window.analysis.rested.connect(loop.quit)
+        loop.exec()
+    window.grab()  # what the plots lay out in their first paint is in its place in the second
+    QTimer.singleShot(0, loop, loop.quit)
+    loop.exec()
+    written = window.grab().save(str(picture), "PNG")
+    window.hide()
+    if not written:
+        raise FileError(picture, "the picture cannot be written there.")
+    return 0
+
+
+def _tell(kind: QtMsgType, context: QMessageLogContext, message: str) -> None:
+    """Write a message of Qt's as Qt does, but for `IDLE_MESSAGE`."""
+    if message != IDLE_MESSAGE and sys.stderr is not None:
+        sys.stderr.write(qFormatLogMessage(kind, context, message) + "\n")
