@@ -1,4 +1,21 @@
-"""The limit curve as a polyline within a tolerance, with the proven deviation."""
+"""The limit curve as a polyline within a tolerance, with the proven deviation.
+
+Notes
+-----
+A chord of length h misses a curve of curvature k by ``k h^2 / 8``. So ``sqrt(k / (8 d))`` is the
+density of chords, per unit of length, that keeps the deviation d; cutting the curve where the
+integral of the density passes whole numbers gives all chords the same deviation, and no other
+choice of as many chords does better, as the chords get short (de Boor's equidistribution). What
+this leaves over where chords are long is found by measuring: the density within a chord is
+corrected by its true deviation, and a chord that still misses the tolerance is halved.
+
+The density is a guess; the proof is apart from it. All samples between the ends of a chord are
+measured. Their polygon keeps to what its vertices keep to, since distance from a segment is a
+convex function, and the curve keeps to its polygon by `core.samples`. A curve that joins the ends
+of a segment and stays within d of it covers the segment within d too (its nearest point on the
+segment moves continuously from end to end), so this one-sided distance bounds the Hausdorff
+distance.
+"""
 
 from __future__ import annotations
 
@@ -6,27 +23,42 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from core.chords import chord_constant, second_difference_norm
 from core.errors import NinepointError
 from core.limit import LimitCurve
-
-FINEST_LEVEL: Final = 14
-"""Level at which the search gives up: 16,384 chords in a span."""
-
-MAX_SAMPLES: Final = 2**25
-"""Largest number of sampled points of a curve: some ten seconds of work."""
+from core.samples import Sampling
 
 _BOUND_SHARE: Final = 1 / 8
-"""Share of the tolerance that the bound between the sampled points should take."""
+"""Share of the tolerance that the bound between the samples should take: some five samples or
+more to a chord."""
 
-_LARGEST_BOUND_SHARE: Final = 1 / 2
-"""Share that it may take where a rough curve does not come down to that at `FINEST_LEVEL`."""
+_EPS: Final = float(np.finfo(float).eps)
 
-_CHUNK_POINTS: Final = 2**18
-"""Number of sampled points held at a time."""
+_MARGIN: Final = 1e-6
+"""Part of a chord by which sums of densities keep off the whole number at the end of a section,
+where there is a cut anyway: more than their rounding."""
+
+_AIM: Final = 0.9
+"""Share of the admitted deviation that large curves aim at: cuts fall on samples, which makes a
+chord longer than wanted by a tenth now and then."""
+
+
+_FINE_AIMS: Final = (0.98,) * 4 + (0.95,) * 4 + (0.9,) * 4
+"""The same in the corrections of the density where samples are few, but many to a chord. The first
+is best with a hundred samples to a chord, the last with ten."""
+
+_FEW: Final = 2**15
+"""Number of samples in a block up to which the density is corrected."""
+
+_LARGEST_CORRECTION: Final = 1.5
+"""Factor by which a density is changed at most in one correction."""
+
+_EXTREME_SHARE: Final = 1 / 4
+"""Share of the admitted deviation by which an extreme has to lie beyond both ends to count."""
+
+_FEWEST_CLOSED: Final = 3
+"""Chords of a closed curve, so that a tolerance beyond its size does not make it a dot."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +84,9 @@ class Polyline:
 def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     """Polyline through exact curve points, within ``tolerance`` of the curve.
 
-    Each span is cut uniformly, as fine as it needs. Its deviation is the largest distance of
-    sampled curve points from their chords, plus the proven bound between the samples.
+    Straight runs take one chord, and chords are as long as their places allow, nearly. Vertices
+    are always: the curve at t = 0, its extremes in x and y, places where it turns back on itself,
+    and one in 2^16 samples of a large curve.
 
     Parameters
     ----------
@@ -65,118 +98,178 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     Returns
     -------
     Polyline
-        At least the ends of all spans.
+        At least two vertices when open and three when closed, unless all samples are at one place.
 
     Raises
     ------
     NinepointError
-        If the scheme is not seen to converge (see `core.chords`), or the tolerance needs a level
-        beyond `FINEST_LEVEL` or more than `MAX_SAMPLES` sampled points.
+        If the tolerance is not positive, or `core.samples.Sampling` refuses.
     """
     if not tolerance > 0:
         raise NinepointError(f"The tolerance must be greater than 0, not {tolerance:g}.")
     if curve.spans == 0:
         return Polyline(curve.control_points, closed=False, deviation=0.0)
-    fine_levels, bounds = _fine_levels(curve, tolerance)
-    if (2**fine_levels).sum() > MAX_SAMPLES:
-        raise NinepointError(
-            f"{curve.spans:,} spans within {tolerance:g} mm need too many vertices;"
-            " choose a larger tolerance."
-        )
-    pieces: dict[int, NDArray[np.float64]] = {}
+    pieces: list[NDArray[np.float64]] = []
     deviation = 0.0
-    for fine in np.unique(fine_levels):
-        members = np.flatnonzero(fine_levels == fine)
-        size = max(_CHUNK_POINTS >> int(fine), 1)
-        for begin in range(0, len(members), size):
-            spans = members[begin : begin + size]
-            sampled = curve.span_points(spans, int(fine))
-            steps, distances = _coarsest(sampled, tolerance - bounds[spans])
-            deviation = max(deviation, float((distances + bounds[spans]).max()))
-            for span, points, step in zip(spans, sampled, steps, strict=True):
-                # A view would keep all samples in memory.
-                pieces[int(span)] = points[:-1:step].copy()
-    points = np.concatenate([pieces[span] for span in range(curve.spans)])
+    for samples in Sampling(curve, tolerance, _BOUND_SHARE).blocks():
+        fewest = _FEWEST_CLOSED if curve.closed and not pieces else 1
+        cuts, found = _cuts(samples.x, samples.y, tolerance - samples.bound, fewest)
+        deviation = max(deviation, found + samples.bound)
+        pieces.append(np.stack([samples.x[cuts[:-1]], samples.y[cuts[:-1]]], axis=1))
     if not curve.closed:
-        points = np.concatenate([points, curve.control_points[-1:]])
-    return Polyline(points, curve.closed, deviation)
+        pieces.append(curve.control_points[-1:])
+    return Polyline(np.concatenate(pieces), curve.closed, deviation)
 
 
-def _fine_levels(
-    curve: LimitCurve, tolerance: float
-) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Level at which each span is sampled, and the proven chord bound at that level."""
-    mask = curve.mask
-    endless = curve.endless_points
-    bends = np.hypot(*np.diff(endless, n=2, axis=0).T)
-    reads = mask.end - mask.start - 1
-    largest = sliding_window_view(bends, reads).max(axis=1)[: curve.spans]
-    # A coordinate of a curve point is off by some 8 eps of the largest coordinate.
-    rounding = 16 * np.finfo(float).eps * float(np.abs(endless).max())
-    constant = chord_constant(mask)
-    levels = np.full(curve.spans, -1, dtype=np.intp)
-    bounds = np.full(curve.spans, np.inf)
-    for level in range(FINEST_LEVEL + 1):
-        bound = constant * second_difference_norm(mask, level) * largest + rounding
-        share = _BOUND_SHARE if level < FINEST_LEVEL else _LARGEST_BOUND_SHARE
-        reached = (levels < 0) & (bound <= share * tolerance)
-        levels[reached] = level
-        bounds[reached] = bound[reached]
-        if (levels >= 0).all():
-            return levels, bounds
-    raise NinepointError(
-        f"This curve is too rough to be followed within {tolerance:g} mm;"
-        " choose a larger tolerance, or parameters closer to a preset."
-    )
+def _cuts(
+    x: NDArray[np.float64], y: NDArray[np.float64], admitted: float, fewest: int
+) -> tuple[NDArray[np.intp], float]:
+    """Indices of the samples that become vertices, first and last included; their deviation."""
+    # Distances are differences of products: small numbers keep their digits.
+    x, y = x - x[0], y - y[0]
+    step_x, step_y = np.diff(x), np.diff(y)
+    steps = np.sqrt(step_x * step_x + step_y * step_y)
+    few = len(steps) <= _FEW
+    fixed = _fixed(x, y, step_x, step_y, admitted)
+    density = _density(step_x, step_y, steps, admitted * (1.0 if few else _AIM))
+    cuts = _equidistributed(density, fixed, fewest)
+    deviations = _deviations(x, y, steps, cuts[:-1], cuts[1:])
+    best = _halved(x, y, steps, cuts, deviations, admitted)
+    for aim in _FINE_AIMS if few else ():
+        wanted = np.sqrt(deviations / (aim * admitted))
+        had = np.add.reduceat(density, cuts[:-1])
+        factors = np.divide(wanted, had, out=np.ones_like(had), where=had > 0)
+        factors = np.clip(factors, 1 / _LARGEST_CORRECTION, _LARGEST_CORRECTION)
+        density = density * np.repeat(factors, np.diff(cuts))
+        cuts = _equidistributed(density, fixed, fewest)
+        deviations = _deviations(x, y, steps, cuts[:-1], cuts[1:])
+        other = _halved(x, y, steps, cuts, deviations, admitted)
+        if len(other[0]) < len(best[0]):
+            best = other
+    return best[0], float(best[1].max())
 
 
-def _coarsest(
-    sampled: NDArray[np.float64], admitted: NDArray[np.float64]
-) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """For each span the widest step whose chords keep all samples within ``admitted``.
+def _fixed(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    step_x: NDArray[np.float64],
+    step_y: NDArray[np.float64],
+    admitted: float,
+) -> NDArray[np.intp]:
+    """Samples that have to be vertices: the ends, where the curve turns back, and its extremes.
 
-    Parameters
-    ----------
-    sampled
-        Shape (k, 2^F + 1, 2).
-    admitted
-        Shape (k,), positive.
-
-    Returns
-    -------
-    steps, distances
-        Shape (k,): samples per chord, a power of two, and the largest distance of a sample.
+    With the extremes the polyline has the size of the curve, not one that is smaller by as much
+    as its deviation. Those that the ends nearly reach do not count: a straight line has none.
     """
-    count, size = sampled.shape[0], sampled.shape[1] - 1
-    steps = np.ones(count, dtype=np.intp)
-    distances = np.zeros(count)
-    open_spans = np.arange(count)
-    step = size
-    while step > 1 and len(open_spans):
-        points = sampled[open_spans]
-        found = _chord_distances(points, step)
-        good = found <= admitted[open_spans]
-        steps[open_spans[good]] = step
-        distances[open_spans[good]] = found[good]
-        open_spans = open_spans[~good]
-        step //= 2
-    return steps, distances
+    along = step_x[:-1] * step_x[1:]
+    along += step_y[:-1] * step_y[1:]
+    chosen = [np.array([0, len(step_x)]), np.flatnonzero(along < 0) + 1]
+    for values in (x, y):
+        extremes = np.array([values.argmin(), values.argmax()])
+        beyond = np.abs(values[[0, -1]][:, None] - values[extremes]).min(axis=0)
+        chosen.append(extremes[beyond > _EXTREME_SHARE * admitted])
+    return np.unique(np.concatenate(chosen))
 
 
-def _chord_distances(points: NDArray[np.float64], step: int) -> NDArray[np.float64]:
-    """Largest distance, for each row, of the points from the chord segments over ``step`` points.
+def _density(
+    step_x: NDArray[np.float64],
+    step_y: NDArray[np.float64],
+    steps: NDArray[np.float64],
+    admitted: float,
+) -> NDArray[np.float64]:
+    """Number of chords that each sample asks for, shape of the steps; nothing at the first one.
 
-    A curve that joins the ends of a segment and stays within d of it covers the segment within d
-    too (its nearest point on the segment moves continuously from end to end), so this one-sided
-    distance bounds the Hausdorff distance.
+    With steps of length s the cross product of two neighbours is ``k s^3``, hence the formula.
     """
-    rows = len(points)
-    start = points[:, :-1:step, None]
-    chord = points[:, step::step, None] - start
-    inner = points[:, :-1].reshape(rows, -1, step, 2) - start
-    length = (chord**2).sum(axis=-1)
-    along = (inner * chord).sum(axis=-1)
-    share = np.divide(along, length, out=np.zeros_like(along), where=length > 0)
-    away = inner - np.clip(share, 0.0, 1.0)[..., None] * chord
-    squares: NDArray[np.float64] = (away**2).sum(axis=-1)
-    return np.asarray(np.sqrt(squares.max(axis=(1, 2))), dtype=np.float64)
+    cross = step_x[:-1] * step_y[1:]
+    cross -= step_x[1:] * step_y[:-1]
+    np.abs(cross, out=cross)
+    both = steps[:-1] + steps[1:]
+    both *= 4 * admitted
+    density = np.zeros_like(steps)
+    np.divide(cross, both, out=density[1:], where=both > 0)
+    np.sqrt(density, out=density)
+    return density
+
+
+def _equidistributed(
+    density: NDArray[np.float64], fixed: NDArray[np.intp], fewest: int
+) -> NDArray[np.intp]:
+    """Cuts that share out the density between each two fixed ones to a whole number of chords."""
+    sums = np.cumsum(density)
+    ends = np.concatenate([[0.0], sums[fixed[1:] - 1]])
+    sections = np.diff(ends)
+    chords = np.maximum(np.ceil(sections), 1.0)
+    if len(chords) < fewest:
+        chords[0] = max(chords[0], fewest)
+    scale = np.zeros_like(sections)
+    np.divide(chords - _MARGIN, sections, out=scale, where=sections > 0)
+    counts = np.diff(fixed)
+    begin = np.cumsum(chords) - chords
+    sums *= np.repeat(scale, counts)
+    sums += np.repeat(begin - ends[:-1] * scale + _MARGIN / 2, counts)
+    passed = sums.astype(np.intp)
+    inner = np.flatnonzero(passed[1:] != passed[:-1]) + 1
+    return np.concatenate([[0], inner, [len(density)]])
+
+
+def _deviations(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    steps: NDArray[np.float64],
+    first: NDArray[np.intp],
+    last: NDArray[np.intp],
+) -> NDArray[np.float64]:
+    """Proven distance of the samples ``first .. last`` from the chord between them, for each pair.
+
+    The distance from the line of the chord is measured. A sample that lies s beyond an end of the
+    chord makes the way through the samples longer than the chord by 2 s at least, so half of that
+    excess bounds s.
+    """
+    counts = last - first
+    begin = np.cumsum(counts) - counts
+    whole = bool((first[1:] == last[:-1]).all())
+    if whole:
+        inner_x, inner_y = x[first[0] : last[-1]], y[first[0] : last[-1]]
+        inner_steps = steps[first[0] : last[-1]]
+    else:
+        places = np.repeat(first - begin, counts) + np.arange(counts.sum())
+        inner_x, inner_y, inner_steps = x[places], y[places], steps[places]
+    chord_x, chord_y = x[last] - x[first], y[last] - y[first]
+    lengths = np.sqrt(chord_x * chord_x + chord_y * chord_y)
+    scale = np.divide(1.0, lengths, out=np.zeros_like(lengths), where=lengths > 0)
+    normal_x, normal_y = -chord_y * scale, chord_x * scale
+    offset = normal_x * x[first] + normal_y * y[first]
+    away = np.repeat(normal_x, counts)
+    away *= inner_x
+    other = np.repeat(normal_y, counts)
+    other *= inner_y
+    away += other
+    away -= np.repeat(offset, counts)
+    np.abs(away, out=away)
+    aside = np.maximum.reduceat(away, begin)
+    way = np.add.reduceat(inner_steps, begin) * (1 + counts * _EPS)
+    beyond = np.maximum(way - lengths, 0) / 2
+    return np.asarray(np.hypot(aside, beyond))
+
+
+def _halved(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    steps: NDArray[np.float64],
+    cuts: NDArray[np.intp],
+    deviations: NDArray[np.float64],
+    admitted: float,
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Cuts and deviations when each chord that misses what is admitted is halved until it fits."""
+    while True:
+        wide = np.flatnonzero((deviations > admitted) & (np.diff(cuts) > 1))
+        if not len(wide):
+            return cuts, deviations
+        first, last = cuts[wide], cuts[wide + 1]
+        middle = (first + last) // 2
+        left = _deviations(x, y, steps, first, middle)
+        right = _deviations(x, y, steps, middle, last)
+        deviations = np.insert(deviations, wide, left)
+        deviations[wide + 1 + np.arange(len(wide))] = right
+        cuts = np.insert(cuts, wide + 1, middle)
