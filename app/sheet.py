@@ -117,6 +117,11 @@ class Sheet(QWidget):
         self._show_grid = shown
         self.refresh()
 
+    @property
+    def notice(self) -> str:
+        """The sentence that stays above the drawing."""
+        return self._notice
+
     def look(self, camera: Camera) -> None:
         """Change the view."""
         old, self._camera = self._camera, camera

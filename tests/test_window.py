@@ -1,4 +1,5 @@
 import sys
+from threading import Event
 
 import numpy as np
 import pytest
@@ -17,18 +18,21 @@ from PySide6.QtWidgets import (
 )
 
 from answers import Answers
+from app import analysis
 from app.dialogs import Answer, Dialogs
 from app.failures import SENTENCE, Failures
 from app.launch import run
 from app.opening import READY_POINTS_MM
+from app.scene import FINITE_LEVEL
 from app.session import Selection
 from app.settings import Settings
-from app.style import DARK, LIGHT
+from app.style import DARK, LIGHT, palette_of
 from app.theme import window_palette
 from app.window import MainWindow
+from core.continuity import smoothness
 from core.document import Curve, Document
 from core.errors import NinepointError
-from core.family import PRESETS
+from core.family import PRESETS, Parameters
 
 NO_KEYS = Qt.KeyboardModifier.NoModifier
 
@@ -398,3 +402,125 @@ def test_a_drawing_that_runs_away_has_no_crash(window):
     window.grab()
     window.status.measure()
     assert "mm" in window.status.size_label.text()
+
+
+def known(qtbot, window):
+    qtbot.waitUntil(lambda: window.analysis.is_at_rest and window.analysis.finding is not None)
+
+
+def test_badge_status_and_canvas_tell_what_is_proven(qtbot, window):
+    known(qtbot, window)
+    proof = "C\u00b3 proven, not C\u2074"
+    assert window.scheme.badge.sentence == f"{proof} \u00b7 H\u00f6lder 3.82747\u2026"
+    assert window.status.proof.text() == proof
+    assert window.canvas.notice == ""
+    type_into(window.scheme.fields["alpha"], "10")
+    known(qtbot, window)
+    assert window.status.proof.text() == "does not converge, proven"
+    assert "does not converge, proven" in window.scheme.badge.sentence
+    assert "drawn at a finite level" in window.canvas.notice
+    qtbot.waitUntil(lambda: window.status.size_label.text() == "no finite size")
+    window.commands["undo"].trigger()
+    known(qtbot, window)
+    assert window.canvas.notice == ""
+    qtbot.waitUntil(lambda: window.status.size_label.text() == "99.27 \u00d7 58.35 mm")
+
+
+def type_into(field, text):
+    field.setFocus()
+    field.selectAll()
+    QTest.keyClicks(field, text)
+    QTest.keyClick(field, Qt.Key.Key_Return)
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [Parameters(100, -100, 100), Parameters(10, 0, 0), Parameters(1, 0, -1, "mirrored")],
+)
+def test_a_divergent_scheme_is_drawn_without_overflow(qtbot, window, parameters):
+    document = window.session.document
+    window.session.edit(document.with_parameters(parameters), "Set")
+    known(qtbot, window)
+    (drawn,) = window.canvas.scene.curves
+    assert np.isfinite(drawn.vertices_px).all()
+    assert len(drawn.vertices_px) == 8 * 2**FINITE_LEVEL
+    assert window.docks.step_plot.sentence == "overshoot and undershoot: no bound proven"
+    colours = palette_of(window)
+    content = window.canvas.grab().toImage()
+    inks = {content.pixelColor(x, y).name() for x in range(200, 700) for y in range(44, 76)}
+    assert colours.warning in inks
+
+
+def test_the_badge_follows_while_a_slider_is_held(qtbot, window):
+    known(qtbot, window)
+    track = window.scheme.tracks["alpha"]
+    middle = QPoint(round(track.x_of(track.value())), track.height() // 2)
+    QTest.mousePress(track, Qt.MouseButton.LeftButton, pos=middle)
+    QTest.mouseMove(track, middle + QPoint(40, 0))
+    with qtbot.waitSignal(window.analysis.changed) as changed:
+        assert track.is_held
+    assert changed.args[0].parameters is window.session.document.parameters
+    QTest.mouseRelease(track, Qt.MouseButton.LeftButton, pos=middle + QPoint(40, 0))
+
+
+def test_the_report_opens_by_a_key_and_is_made_then(qtbot, window):
+    known(qtbot, window)
+    assert window.analysis.finding.report is None
+    assert not window.docks.report.isVisible()
+    QTest.keyClick(window.canvas, Qt.Key.Key_R, Qt.KeyboardModifier.ControlModifier)
+    assert window.report.page.hasFocus()
+    qtbot.waitUntil(lambda: window.report.report is not None)
+    assert window.report.report.parameters == PRESETS["Calm"]
+    change(window, "Tight")
+    qtbot.waitUntil(lambda: window.report.report.parameters == PRESETS["Tight"])
+    window.docks.report.close()
+    change(window, "Lean")
+    known(qtbot, window)
+    assert window.analysis.finding.report is None
+
+
+def test_a_click_on_the_status_opens_the_report(qtbot, window):
+    known(qtbot, window)
+    QTest.mouseClick(window.status.proof, Qt.MouseButton.LeftButton)
+    assert window.docks.report.isVisible()
+
+
+def test_nothing_is_cut_in_the_scheme_panel(qtbot, window):
+    known(qtbot, window)
+    assert window.scheme.height() >= window.scheme.sizeHint().height()
+    for finding in ("Lagrange", "B-spline"):
+        change(window, finding)
+        known(qtbot, window)
+        for label in (window.scheme.badge.statement, window.scheme.badge.detail):
+            assert label.fontMetrics().horizontalAdvance(label.text()) <= label.width()
+
+
+def test_no_work_outlives_the_window(qtbot, window, answers, monkeypatch):
+    begun, ended = Event(), []
+
+    def endless(mask, narrow=False, cancelled=None):
+        if narrow:
+            begun.set()
+            while not cancelled():
+                pass
+            ended.append(mask)
+        return smoothness(mask)
+
+    monkeypatch.setattr(analysis, "smoothness", endless)
+    change(window)
+    qtbot.waitUntil(begun.is_set)
+    answers.answer = Answer.DISCARD
+    assert window.close()
+    assert ended
+    assert window.analysis.is_at_rest
+
+
+def test_a_key_sheet_called_with_shift_leaves_the_plain_hint(qtbot, window):
+    window.canvas.setFocus()
+    QTest.mouseMove(window.canvas, window.canvas.rect().center())
+    hint = window.status.hint.text()
+    QTest.keyPress(window.canvas, Qt.Key.Key_Shift, Qt.KeyboardModifier.ShiftModifier)
+    window.commands["keys"].trigger()
+    qtbot.waitUntil(lambda: not window.canvas.hasFocus())
+    assert window.status.hint.text() == hint
+    QApplication.activeModalWidget().close()
