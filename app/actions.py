@@ -229,6 +229,11 @@ COMMANDS: Final = (
         "Show or hide the grid", state=lambda w: w.canvas.show_grid,
     ),
     Command(
+        "slope", "&View", "&Derivative of the basis function", lambda w: w.toggle_slope(), (),
+        "Plot the first derivative too, where it is proven to exist",
+        state=lambda w: w.shows_slope,
+    ),
+    Command(
         "reset layout", "&View", "Reset &layout", lambda w: w.reset_layout(), (),
         "Put all panels back to where they were at first",
     ),

@@ -20,6 +20,7 @@ from app.scene import FINITE_LEVEL, grows
 from app.session import Session
 from app.style import Palette, color, palette_of
 from core.basis import BasicLimitFunction
+from core.continuity import certificate
 from core.document import Document
 from core.errors import NoLimitError
 from core.family import Parameters
@@ -86,6 +87,7 @@ class AnalysisPlot(pg.PlotWidget):
         self, session: Session, name: str, least: tuple[float, float], parent: QWidget | None = None
     ) -> None:
         super().__init__(parent)
+        self._session = session
         self._least = least
         self._range: tuple[float, float] | None = None
         self._is_wild = False
@@ -152,9 +154,17 @@ class AnalysisPlot(pg.PlotWidget):
         self._ground_note()
         self._place_note()
 
-    def _show_curve(self, t: NDArray[np.float64], values: NDArray[np.float64]) -> None:
+    def _show_curve(
+        self,
+        t: NDArray[np.float64],
+        values: NDArray[np.float64],
+        others: NDArray[np.float64] | None = None,
+    ) -> None:
+        """Put values into the curve, and choose a range that holds the others as well."""
         seen = np.clip(np.nan_to_num(values), -WIDEST, WIDEST)
         self.curve.setData(t, seen, connect="all")
+        if others is not None:
+            seen = np.concatenate([seen, np.clip(others, -WIDEST, WIDEST)])
         low, high = self._least
         low -= _grown(low + BOTTOM_MARGIN - seen.min())
         high += _grown(seen.max() - (high - TOP_MARGIN))
@@ -225,23 +235,44 @@ class BasisPlot(AnalysisPlot):
         super().__init__(session, "Basic limit function", BASIS_RANGE, parent)
 
     def _build(self, item: pg.PlotItem) -> None:
+        self._with_slope = False
         self.support = pg.LinearRegionItem(movable=False)
         self.support.setZValue(-10)
-        item.addItem(self.support, ignoreBounds=True)
-        self._parts = (*self._parts, self.support)
+        self.slope = pg.PlotCurveItem(antialias=True)
+        for part in (self.support, self.slope):
+            item.addItem(part, ignoreBounds=True)
+        self._parts = (*self._parts, self.support, self.slope)
+
+    def show_slope(self, shown: bool) -> None:
+        """Show the first derivative too, where it is proven to exist, or not."""
+        self._with_slope = shown
+        self.show_parameters(self._session.document.parameters)
 
     def draw(self, parameters: Parameters) -> str:
         """Plot phi(t), its support shaded; the words name the support."""
-        phi = BasicLimitFunction(parameters.mask)
-        level = _level(parameters.mask)
-        self._show_curve(phi.parameters(level), phi.values(level))
+        phi, level = BasicLimitFunction(parameters.mask), _level(parameters.mask)
+        t, slope, names = phi.parameters(level), None, "\u03c6(t)"
+        if self._with_slope:
+            order = certificate(parameters.mask).order
+            if order is not None and order >= 1:
+                slope, names = phi.values(level, 1), "\u03c6(t), dashed \u03c6\u2032(t)"
+            else:
+                names = "\u03c6(t), \u03c6\u2032 not proven"
+        self._show_curve(t, phi.values(level), slope)
+        if slope is None:
+            self.slope.setData([], [])
+        else:
+            self.slope.setData(t, slope)
         left, right = phi.support
         self.support.setRegion((float(left), float(right)))
-        return f"\u03c6(t) \u00b7 support {_tick(left)} \u2026 {_tick(right)}"
+        return f"{names} \u00b7 support {_tick(left)} \u2026 {_tick(right)}"
 
     def paint_with(self, colours: Palette, ratio: float) -> None:
-        """Shade the support."""
+        """Shade the support; the derivative differs by its dashes, not by colour alone."""
         self.support.setBrush(pg.mkBrush(colours.plot_fill))
+        dashes = pg.mkPen(colours.plot_annotation, width=CURVE_PX * ratio)
+        dashes.setStyle(Qt.PenStyle.DashLine)
+        self.slope.setPen(dashes)
         for line in self.support.lines:
             line.setPen(pg.mkPen(colours.plot_curve, width=ratio, style=Qt.PenStyle.DashLine))
 

@@ -69,6 +69,7 @@ class MainWindow(QMainWindow):
     canvas: Canvas
     scheme: SchemePanel
     commands: Actions
+    shows_slope: bool
 
     def __init__(
         self,
@@ -82,6 +83,7 @@ class MainWindow(QMainWindow):
         self.settings = settings or Settings()
         self.dialogs = dialogs or Dialogs(self)
         self._painted = False
+        self.shows_slope = False
         self.files = Files(self.session, self.settings, self.dialogs, self)
         self.exporter = Exporter(self.session, self.files, self.settings, self.dialogs, self)
         self.canvas = Canvas(self.session, self)
@@ -201,6 +203,12 @@ class MainWindow(QMainWindow):
         """Show or hide the grid."""
         self.canvas.show_grid = not self.canvas.show_grid
 
+    def toggle_slope(self) -> None:
+        """Show or hide the derivative in the plot of the basis function."""
+        self.shows_slope = not self.shows_slope
+        if self.docks.basis_plot is not None:
+            self.docks.basis_plot.show_slope(self.shows_slope)
+
     def reset_layout(self) -> None:
         """Put the panels and tool bars back to where they were at first."""
         self.restoreState(self._first_arrangement, STATE_VERSION)
@@ -263,6 +271,8 @@ class MainWindow(QMainWindow):
 
     def _complete(self) -> None:
         self.docks.plot(self.session)
+        if self.shows_slope and self.docks.basis_plot is not None:
+            self.docks.basis_plot.show_slope(True)
         self.analysis.start()
         QTimer.singleShot(0, self, self.completed.emit)
 

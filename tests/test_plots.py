@@ -179,3 +179,21 @@ def test_another_colour_scheme_colours_anew(plot, colours):
 def test_the_words_are_there_for_screen_readers(plot):
     assert plot.accessibleName()
     assert plot.accessibleDescription() == plot.sentence
+
+
+def test_the_derivative_is_shown_on_demand(basis, session):
+    assert len(basis.slope.getData()[0]) == 0
+    basis.show_slope(True)
+    t, slope = basis.slope.getData()
+    phi = BasicLimitFunction(PRESETS["Calm"].mask)
+    assert np.array_equal(slope, phi.values(LEVEL, 1))
+    differences = np.diff(phi.values(LEVEL)) / np.diff(t)
+    assert np.abs(differences - (slope[1:] + slope[:-1]) / 2).max() < 1e-2
+    _, (low, high) = basis.getPlotItem().viewRange()
+    assert low < slope.min() < slope.max() < high
+    assert "\u03c6\u2032(t)" in basis.sentence
+    choose(session, Parameters(1, 0, -1, "mirrored"))
+    assert len(basis.slope.getData()[0]) == 0
+    assert "\u03c6\u2032 not proven" in basis.sentence
+    basis.show_slope(False)
+    assert "\u2032" not in basis.sentence

@@ -226,6 +226,16 @@ def test_polygon_and_grid_are_shown_and_hidden(window):
         assert read()
 
 
+def test_the_derivative_is_shown_and_hidden(window):
+    plot = window.docks.basis_plot
+    assert not window.commands["slope"].isChecked()
+    window.commands["slope"].trigger()
+    assert window.commands["slope"].isChecked()
+    assert len(plot.slope.getData()[0])
+    window.commands["slope"].trigger()
+    assert not len(plot.slope.getData()[0])
+
+
 def test_zoom_and_cursor_are_shown(window):
     window.canvas.zoom_real_size()
     assert window.status.zoom_label.text() == "100 %"
