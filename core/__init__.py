@@ -20,11 +20,15 @@ from core.limit import LimitCurve
 from core.live import LiveCurve
 from core.mask import Mask, Stencil
 from core.parents import bspline, lagrange
+from core.picking import nearest_place, nearest_point, points_within
 from core.pull import control_weights, pulled
+from core.pyramid import CurvePyramid, PolygonPyramid, Pyramid
 from core.refine import refine, subdivide
 from core.report import Report, report
 from core.reproduction import generation_degree, reproduction_degree
+from core.runs import Runs
 from core.shape import curvatures, second_derivatives, tangents
+from core.view import view
 
 __all__ = [
     "PRESETS",
@@ -32,6 +36,7 @@ __all__ = [
     "Certificate",
     "Convergence",
     "Curve",
+    "CurvePyramid",
     "Document",
     "FileError",
     "Gibbs",
@@ -46,9 +51,12 @@ __all__ = [
     "ParameterError",
     "Parameters",
     "Plane",
+    "PolygonPyramid",
     "Polyline",
+    "Pyramid",
     "Quantity",
     "Report",
+    "Runs",
     "Smoothness",
     "SmoothnessError",
     "Stencil",
@@ -67,8 +75,11 @@ __all__ = [
     "extended",
     "generation_degree",
     "lagrange",
+    "nearest_place",
+    "nearest_point",
     "one_parameter",
     "parameter_map",
+    "points_within",
     "polyline",
     "pulled",
     "quick_interval",
@@ -83,5 +94,6 @@ __all__ = [
     "subdivide",
     "tangents",
     "two_parameter",
+    "view",
     "zeta_violation",
 ]

@@ -163,6 +163,18 @@ class BasicLimitFunction:
         """Evaluation table of a closed span: `table` with one column more, for ``t = i + 1``."""
         return _table(self, level, order)
 
+    def cell_table(self, level: int) -> NDArray[np.float64]:
+        """Evaluation table of a cell ``[i - 1/2, i + 1/2]`` of the dual grid, both ends included.
+
+        Returns
+        -------
+        ndarray
+            ``B[r, m]``, shape ``(end - start, 2^level + 1)``, with
+            ``C(i - 1/2 + m / 2^level) = sum_r B[r, m] p_{i + r + 1 - end}``. It has one row less
+            than `table`, because the support of phi ends where cells do; see `core.cells`.
+        """
+        return _cell_table(self, level)
+
     def weights(self, tau: float) -> NDArray[np.float64]:
         """Weights of the control points in a curve point at any place of a span.
 
@@ -282,6 +294,17 @@ def _table(phi: BasicLimitFunction, level: int, order: int) -> NDArray[np.float6
     table = np.zeros((len(spans), 2**level + 1))
     table[:, :-1] = spans[::-1, :: 2 ** (fine - level)]
     # The end is the start of the next span, whose window lies one point further on.
+    table[1:, -1] = table[:-1, 0]
+    table.flags.writeable = False
+    return table
+
+
+@lru_cache(maxsize=MEMORY)
+def _cell_table(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
+    """Cut phi into the unit intervals of x; the last one is row 0."""
+    width = phi.mask.end - phi.mask.start
+    table = np.zeros((width, 2**level + 1))
+    table[:, :-1] = phi.values(level)[:-1].reshape(width, -1)[::-1]
     table[1:, -1] = table[:-1, 0]
     table.flags.writeable = False
     return table

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from core.ends import extended, far, reach, write_ends
 from core.limit import LimitCurve
 from core.mask import Mask
+from core.ranges import around, within
 
 
 class LiveCurve(LimitCurve):
@@ -62,25 +63,18 @@ class LiveCurve(LimitCurve):
             return ()
         left, right = self._reach
         store[:, left + moved] = points[moved].T
-        if moved.size == 1:
-            low = high = int(moved if moved.ndim == 0 else moved[0])
-        else:
-            low, high = int(moved.min()), int(moved.max())
         margin = self._far // 2
-        at_start, at_end = low < margin, high >= count - margin
+        at_start, at_end = moved.min() < margin, moved.max() >= count - margin
         if at_start or at_end:
             write_ends(store.T, points, self.mask, self.closed)
-        if low == high:
-            touched = [(low - 1 - right, low + left + 1)]
-        else:
-            touched = _merged(np.unique(moved), 1 + right, left + 1)
+        touched = around(moved, 1 + right, left + 1)
         if not self.closed:
             # A centre moves with the points that it is made of, and reflects the spans' windows.
             if at_start:
                 touched.append((0, left + 1))
             if at_end:
                 touched.append((count - 2 - right, self.spans))
-        return _within(touched, self.spans, self.closed)
+        return within(touched, self.spans, self.closed)
 
 
 def _owned(array: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -90,33 +84,3 @@ def _owned(array: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.
     view = array.view()
     view.flags.writeable = False
     return array, view
-
-
-def _merged(indices: NDArray[np.intp], before: int, after: int) -> list[tuple[int, int]]:
-    """Intervals ``[i - before, i + after)`` of rising indices; those that meet become one."""
-    gaps = np.flatnonzero(np.diff(indices) > before + after)
-    starts = indices[np.concatenate([[0], gaps + 1])] - before
-    stops = indices[np.concatenate([gaps, [len(indices) - 1]])] + after
-    return list(zip(starts.tolist(), stops.tolist(), strict=True))
-
-
-def _within(intervals: list[tuple[int, int]], spans: int, closed: bool) -> tuple[range, ...]:
-    """Disjoint ranges in ``range(spans)``: cut off at open ends, carried over a closed one."""
-    parts = []
-    for start, stop in intervals:
-        if stop - start >= spans:
-            return (range(spans),)
-        if closed and start < 0:
-            parts += [(start + spans, spans), (0, stop)]
-        elif closed and stop > spans:
-            parts += [(start, spans), (0, stop - spans)]
-        else:
-            parts.append((max(start, 0), min(stop, spans)))
-    parts.sort()
-    found: list[tuple[int, int]] = []
-    for start, stop in parts:
-        if found and start <= found[-1][1]:
-            found[-1] = found[-1][0], max(stop, found[-1][1])
-        elif start < stop:
-            found.append((start, stop))
-    return tuple(range(start, stop) for start, stop in found)

@@ -1,0 +1,226 @@
+"""What is seen of a curve: runs of few vertices, within a tolerance of the exact curve.
+
+Notes
+-----
+The pyramid is descended from its top: nodes out of the rectangle are dropped, those that are
+straight within the tolerance become chords, two and four of them at a time where that suffices.
+Where a single span is too bent, its window of control points says by the same bound
+``c rho_l max |D2p|`` (`core.chords`) at which dyadic level l its chords are straight enough; above
+level 3 its eight parts are looked at apart, each with the control points that three refinements
+give it, so that only those in the rectangle are followed, at any zoom.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.basis import MEMORY, BasicLimitFunction
+from core.chords import cell_constant, second_difference_norm
+from core.limit import LimitCurve
+from core.mask import Mask
+from core.pyramid import (
+    FAN,
+    CurvePyramid,
+    Pyramid,
+    bends_of,
+    boxes_of,
+    children_ends,
+    from_chords,
+    meets,
+)
+from core.runs import PARTS, Chords, Runs
+
+BUDGET: Final = 4000
+"""Number of chords that a view takes on, about, before its tolerance gives way."""
+
+_STEP: Final = 3
+"""Levels that are refined at a time: `PARTS` is 2^3."""
+
+_ROUNDS: Final = 12
+"""Rounds of refinement, 36 levels: beyond, rounding is larger than any part of a span."""
+
+
+def view(
+    pyramid: Pyramid,
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+    tolerance: float,
+    origin: NDArray[np.float64] | None = None,
+    budget: int = BUDGET,
+) -> Runs:
+    """Vertices of the parts of a curve that may meet a rectangle.
+
+    Parameters
+    ----------
+    pyramid
+        A curve, or a polygon, with its levels of detail.
+    lower, upper
+        Corners of the rectangle, shape (2,).
+    tolerance
+        Largest admitted distance between curve and chords, > 0, in the unit of the points.
+    origin
+        What is subtracted from the vertices, shape (2,). At high zoom an origin within the
+        rectangle keeps the digits that matter, however far the drawing lies from (0, 0).
+    budget
+        Number of chords that is not exceeded by much: then nodes are taken as they are.
+
+    Returns
+    -------
+    Runs
+        All of the curve that lies in the rectangle, and a little beyond it.
+    """
+    shift = np.zeros(2) if origin is None else np.asarray(origin, dtype=np.float64)
+    limits = np.concatenate([upper, -np.asarray(lower)])
+    found = Chords(shift, budget)
+    spans, bounds = _descend(pyramid, limits, tolerance, found)
+    if isinstance(pyramid, CurvePyramid) and len(spans):
+        _subdivide(pyramid.curve, spans, bounds, limits, tolerance, shift, found)
+    return found.joined()
+
+
+def _descend(
+    pyramid: Pyramid, limits: NDArray[np.float64], tolerance: float, found: Chords
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Collect chords over whole spans; return the spans that need finer ones, and their bounds."""
+    total = pyramid.spans
+    level = len(pyramid.ends) - 1
+    # At the top there is no parent whose parts could be joined, but eight nodes make one.
+    nodes = np.flatnonzero(meets(pyramid.boxes[level], limits))
+    deviations = pyramid.deviations[level][nodes]
+    straight = deviations <= tolerance
+    ends = pyramid.ends[level][:, nodes[:, None] + np.arange(2)]
+    found.add_parts(nodes[straight], 1, FAN ** (level + 1), total, ends[:, straight])
+    found.deviation = float(deviations[straight].max(initial=0.0))
+    nodes = nodes[~straight]
+    while len(nodes):
+        children = FAN * nodes[:, None] + np.arange(FAN)
+        if level:
+            ends = children_ends(pyramid.ends[level - 1], nodes)
+            deviations = pyramid.deviations[level - 1][children]
+            seen = meets(pyramid.boxes[level - 1][:, children], limits)
+        else:
+            ends, deviations = pyramid.spans_of(nodes)
+            pairs = np.stack([ends[:, :, :-1], ends[:, :, 1:]], axis=-1)
+            seen = meets(boxes_of(pairs) - deviations, limits) & (children < total)
+        wanted = seen & (deviations > tolerance)
+        bent = found.affordable(wanted, deviations, int(np.count_nonzero(seen)))
+        taken = seen & ~bent
+        found.deviation = max(found.deviation, float(deviations[taken].max(initial=0.0)))
+        _join(found, children, taken, ends, deviations, tolerance, FAN**level, total)
+        nodes = children[bent]
+        if not level:
+            return nodes, deviations[bent]
+        level -= 1
+    return nodes, np.zeros(0)
+
+
+def _join(
+    found: Chords,
+    children: NDArray[np.intp],
+    taken: NDArray[np.bool_],
+    ends: NDArray[np.float64],
+    deviations: NDArray[np.float64],
+    tolerance: float,
+    size: int,
+    total: int,
+) -> None:
+    """Add chords over children (m, 8), over four or two at once where they keep the tolerance."""
+    left = taken
+    for step in (4, 2, 1):
+        groups = FAN // step
+        free = left.reshape(-1, groups, step).all(axis=2)
+        corners = step * np.arange(groups)[:, None] + np.arange(step + 1)
+        if step > 1:
+            off = from_chords(ends[:, :, corners]).max(axis=-1)
+            off += deviations.reshape(-1, groups, step).max(axis=2)
+            free &= off <= tolerance
+            found.deviation = max(found.deviation, float(off[free].max(initial=0.0)))
+        rows, group = np.nonzero(free)
+        first = children[rows, step * group]
+        outer = ends[:, rows[:, None], corners[group][:, [0, -1]]]
+        found.add_parts(first, step, size, total, outer)
+        left = left & ~np.repeat(free, step, axis=1)
+
+
+def _subdivide(
+    curve: LimitCurve,
+    spans: NDArray[np.intp],
+    bounds: NDArray[np.float64],
+    limits: NDArray[np.float64],
+    tolerance: float,
+    shift: NDArray[np.float64],
+    found: Chords,
+) -> None:
+    """Collect chords of spans that are too bent for one, at the levels that they need."""
+    mask = curve.mask
+    basis = BasicLimitFunction(mask)
+    to_parts, to_next = refinements(mask)
+    coordinates = curve.endless_points.T
+    windows = coordinates[:, spans[:, None] + np.arange(len(to_parts))] - shift[:, None, None]
+    times, length = spans.astype(np.float64), 1.0
+    limits = limits - np.concatenate([shift, -shift])
+    constant = cell_constant(mask)
+    table: Callable[[int], NDArray[np.float64]] = basis.span_table
+    shrinking = np.array([second_difference_norm(mask, level) for level in range(1, _STEP + 1)])
+    for _ in range(_ROUNDS):
+        levels = 1 + (bounds[:, None] * shrinking > tolerance).sum(axis=1)
+        wanted = levels > _STEP
+        levels = np.minimum(levels, _STEP)
+        bent = found.affordable(wanted, bounds, int((1 << levels).sum()))
+        for level in range(1, _STEP + 1):
+            chosen = ~bent & (levels == level)
+            if chosen.any():
+                points = windows[:, chosen] @ table(level)
+                found.add_curve(times[chosen], length, points)
+                largest = float(bounds[chosen].max()) * float(shrinking[level - 1])
+                found.deviation = max(found.deviation, largest)
+        if not bent.any():
+            return
+        windows = (windows[:, bent] @ to_parts).reshape(2, -1, len(to_next))
+        length /= PARTS
+        times = (times[bent, None] + length * np.arange(PARTS)).ravel()
+        to_parts, table = to_next, basis.cell_table
+        bounds = constant * bends_of(windows).max(axis=1)
+        ends = windows @ table(0)
+        seen = meets(boxes_of(ends) - bounds, limits)
+        straight = seen & (bounds <= tolerance)
+        found.add_curve(times[straight], length, ends[:, straight])
+        found.deviation = max(found.deviation, float(bounds[straight].max(initial=0.0)))
+        bent = seen & ~straight
+        windows, times, bounds = windows[:, bent], times[bent], bounds[bent]
+
+
+@lru_cache(maxsize=MEMORY)
+def refinements(mask: Mask) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Matrices that cut a window of control points into those of its eight parts.
+
+    Returns
+    -------
+    from_span, from_cell
+        Shapes (r + 1, 8 r) and (r, 8 r), r = end - start. The parts of a span ``[i, i + 1]`` and of
+        a cell ``[i - 1/2, i + 1/2]`` are cells of the three times refined polygon, whose point m
+        lies at ``t = (m + 1/2) / 8 - 1/2`` (theory, section 1): cells 4 to 11 of the span 0, cells
+        0 to 7 of the cell 0.
+    """
+    parts = PARTS
+    iterated = np.ones(1)
+    for power in (1, 2, 4):
+        spread = np.zeros(power * (len(mask.values) - 1) + 1)
+        spread[::power] = mask.values
+        iterated = np.convolve(iterated, spread)
+    width = mask.end - mask.start
+    both = []
+    for first, reads in ((parts // 2, width + 1), (0, width)):
+        coarse = np.arange(reads) + 1 - mask.end
+        fine = (first + np.arange(parts)[:, None] + np.arange(width) + 1 - mask.end).ravel()
+        index = fine - parts * coarse[:, None] - (parts - 1) * mask.start
+        inside = (index >= 0) & (index < len(iterated))
+        matrix = np.where(inside, iterated[np.clip(index, 0, len(iterated) - 1)], 0.0)
+        matrix.flags.writeable = False
+        both.append(matrix)
+    return both[0], both[1]
