@@ -200,6 +200,10 @@ COMMANDS: Final = (
         "Show all that is known of the scheme, in words and formulas", section=True,
     ),
     Command(
+        "map", "&Scheme", "Map &of parameters", lambda w: w.show_map(), ("Ctrl+M",),
+        "Show class, H\u00f6lder exponent or overshoot over a plane of parameters",
+    ),
+    Command(
         "zoom in", "&View", "Zoom &in", lambda w: w.canvas.zoom_by(ZOOM_STEP),
         (StandardKey.ZoomIn, "Ctrl++", "Ctrl+="), "Show less, larger", "zoom-in",
     ),

@@ -36,8 +36,8 @@ class Docks:
     ----------
     window
         The window that they belong to.
-    scheme, curves, points, report
-        What the panels on the right hold; the report is hidden at first.
+    scheme, curves, points, report, atlas
+        What the panels on the right hold; report and map are hidden at first.
     """
 
     def __init__(
@@ -47,11 +47,13 @@ class Docks:
         curves: QWidget,
         points: QWidget,
         report: QWidget,
+        atlas: QWidget,
     ) -> None:
         self._window = window
         self.scheme = self._dock("Scheme", scheme)
         self.lists = self._dock("Curves and points", _stacked(curves, points))
         self.report = self._dock("Report", report)
+        self.map = self._dock("Map", atlas)
         self.basis = self._dock("Basis function", _waiting())
         self.step = self._dock("Step response", _waiting())
         self.basis_plot: BasisPlot | None = None
@@ -61,15 +63,16 @@ class Docks:
         window.setCorner(Qt.Corner.BottomLeftCorner, Area.BottomDockWidgetArea)
         window.addDockWidget(Area.RightDockWidgetArea, self.scheme)
         window.addDockWidget(Area.RightDockWidgetArea, self.lists)
-        window.tabifyDockWidget(self.lists, self.report)
-        self.report.hide()
+        for dock in (self.report, self.map):
+            window.tabifyDockWidget(self.lists, dock)
+            dock.hide()
         window.addDockWidget(Area.BottomDockWidgetArea, self.basis)
         window.splitDockWidget(self.basis, self.step, Qt.Orientation.Horizontal)
 
     @property
     def all(self) -> tuple[QDockWidget, ...]:
         """The docks, in the order of the View menu."""
-        return (self.scheme, self.lists, self.report, self.basis, self.step)
+        return (self.scheme, self.lists, self.report, self.map, self.basis, self.step)
 
     def size(self) -> None:
         """Give the docks their first sizes; to be called once the window has its own."""

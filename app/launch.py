@@ -83,7 +83,7 @@ def run(
     finally:
         sys.excepthook = hook
         qInstallMessageHandler(before)
-        window.analysis.stop()
+        window.stop()
         look.deleteLater()
         window.deleteLater()
 

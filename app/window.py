@@ -24,6 +24,7 @@ from app.docks import Docks
 from app.exporting import Exporter
 from app.files import Files
 from app.guard import guarded
+from app.map_panel import MapPanel
 from app.menus import fill_menu_bar, open_context_menu
 from app.opening import ready_document
 from app.panels import CurvesPanel, PointsPanel
@@ -91,9 +92,12 @@ class MainWindow(QMainWindow):
         self.curves = CurvesPanel(self.session)
         self.points = PointsPanel(self.session)
         self.report = ReportPanel()
+        self.map = MapPanel(self.session)
         self.analysis = Analysis(self.session, self)
         self.setCentralWidget(self.canvas)
-        self.docks = Docks(self, self.scheme, self.curves, self.points, self.report)
+        self.docks = Docks(
+            self, self.scheme, self.curves, self.points, self.report, self.map
+        )
         self.status = StatusBar(self.session, self)
         self.setStatusBar(self.status)
         self.commands = Actions(self)
@@ -220,6 +224,17 @@ class MainWindow(QMainWindow):
         self.docks.report.raise_()
         self.report.page.setFocus()
 
+    def show_map(self) -> None:
+        """Open the map of parameters."""
+        self.docks.map.show()
+        self.docks.map.raise_()
+        self.map.chart.setFocus()
+
+    def stop(self) -> None:
+        """End all work in the background; no worker outlives the window."""
+        self.analysis.stop()
+        self.map.stop()
+
     def show_keys(self) -> None:
         """Show the sheet of keys."""
         from app.keysheet import KeySheet  # rarely wanted
@@ -304,7 +319,7 @@ class MainWindow(QMainWindow):
         event.ignore()  # stands if anything below fails: better open than lost
         if self.files.may_leave():
             self._remember()
-            self.analysis.stop()
+            self.stop()
             event.accept()
 
     @guarded

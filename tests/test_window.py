@@ -254,7 +254,7 @@ def test_panels_come_back_by_reset(window):
     window.commands["reset layout"].trigger()
     assert not any(dock.isFloating() for dock in window.docks.all)
     hidden = [dock.windowTitle() for dock in window.docks.all if not dock.isVisible()]
-    assert hidden == ["Report"]
+    assert hidden == ["Report", "Map"]
     assert window.tool_bar.isVisible()
     assert len(window.saveState()) == len(before)
 
