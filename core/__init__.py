@@ -21,7 +21,7 @@ from core.live import LiveCurve
 from core.mask import Mask, Stencil
 from core.parents import bspline, lagrange
 from core.picking import nearest_place, nearest_point, points_within
-from core.pull import control_weights, pulled
+from core.pull import control_weights, pull, pulled
 from core.pyramid import CurvePyramid, PolygonPyramid, Pyramid
 from core.refine import refine, subdivide
 from core.report import Report, report
@@ -81,6 +81,7 @@ __all__ = [
     "parameter_map",
     "points_within",
     "polyline",
+    "pull",
     "pulled",
     "quick_interval",
     "ramp_gibbs",

@@ -18,6 +18,18 @@ MAX_COORDINATE_MM: Final = 1e9
 MAX_POINTS: Final = 1_000_000
 """Largest number of control points in a document."""
 
+_MOVED_SHARE: Final = 1 / 16
+"""Share of a curve's points up to which moves are kept apart from the points that they change."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Moves:
+    """What a curve has different from an array of points: rising indices and new positions."""
+
+    base: NDArray[np.float64]
+    indices: NDArray[np.intp]
+    positions: NDArray[np.float64]
+
 
 @dataclass(frozen=True, eq=False)
 class Curve:
@@ -38,11 +50,18 @@ class Curve:
     NinepointError
         If the points are not (n, 2) finite numbers of an admitted size; the message names the
         first bad point, counted from 1.
+
+    Notes
+    -----
+    A curve that comes from `moved` keeps the other curve and what is different, so that an event
+    of a drag costs what moves and not what there is; its ``points`` are made when they are asked
+    for. Who draws it asks for `differences` and `places` instead.
     """
 
     points: NDArray[np.float64]
     closed: bool = True
     name: str = "Curve"
+    _moves: _Moves = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         points = np.array(self.points, dtype=np.float64)
@@ -50,22 +69,32 @@ class Curve:
             points = points.reshape(0, 2)
         if points.ndim != 2 or points.shape[1] != 2:
             raise NinepointError(f"A curve needs two coordinates a point, not {points.shape}.")
-        # A comparison with nan is false, so this catches nan as well.
-        bad = ~(np.abs(points) <= MAX_COORDINATE_MM).all(axis=1)
-        if bad.any():
-            index = int(bad.argmax())
-            x, y = points[index]
-            raise NinepointError(
-                f"Point {index + 1} of {self.name!r} is ({x:g}, {y:g}); coordinates must be"
-                f" finite and at most {MAX_COORDINATE_MM:g} mm."
-            )
+        _check(points, np.arange(len(points)), self.name)
         points.flags.writeable = False
         object.__setattr__(self, "points", points)
+        none = np.zeros(0, dtype=np.intp)
+        object.__setattr__(self, "_moves", _Moves(points, none, np.zeros((0, 2))))
+
+    def __getattr__(self, name: str) -> NDArray[np.float64]:
+        # Reached only where an attribute is missing: the points of a moved curve, once.
+        if name != "points" or "_moves" not in vars(self):
+            raise AttributeError(name)
+        moves = self._moves
+        points = moves.base.copy()
+        points[moves.indices] = moves.positions
+        points.flags.writeable = False
+        object.__setattr__(self, "points", points)
+        return points
+
+    @property
+    def count(self) -> int:
+        """Number of control points."""
+        return len(self._moves.base)
 
     @property
     def is_loop(self) -> bool:
         """Whether the limit curve is drawn closed: closed, and at least three points."""
-        return self.closed and len(self.points) >= 3
+        return self.closed and self.count >= 3
 
     def limit(self, parameters: Parameters) -> LimitCurve:
         """Limit curve of the polygon; two points give a segment, one a dot, none nothing."""
@@ -73,9 +102,47 @@ class Curve:
 
     def moved(self, indices: ArrayLike, positions: ArrayLike) -> Curve:
         """Copy with the points at ``indices`` (k,) put at ``positions`` (k, 2) or (2,)."""
-        points = self.points.copy()
-        points[np.asarray(indices, dtype=np.intp)] = positions
-        return replace(self, points=points)
+        chosen = np.asarray(indices, dtype=np.intp).reshape(-1)
+        count = self.count
+        if len(chosen) and not -count <= chosen.min() <= chosen.max() < count:
+            raise IndexError(f"{self.name!r} has {count} points")
+        chosen = chosen % max(count, 1)
+        places = np.empty((len(chosen), 2))
+        places[:] = positions
+        _check(places, chosen, self.name)
+        # Of several positions for one point the last one holds.
+        before = self._moves
+        together = np.concatenate([before.indices, chosen])[::-1]
+        changed, last = np.unique(together, return_index=True)
+        places = np.concatenate([before.positions, places])[::-1][last]
+        if len(changed) > _MOVED_SHARE * count:
+            points = self.points.copy()
+            points[changed] = places
+            return replace(self, points=points)
+        curve = object.__new__(Curve)
+        moves = _Moves(before.base, changed, places)
+        vars(curve).update(closed=self.closed, name=self.name, _moves=moves)
+        return curve
+
+    def differences(self, other: Curve) -> NDArray[np.intp] | None:
+        """Indices of the points that may lie elsewhere in another curve, rising.
+
+        None if the curves have no common origin that tells it without comparing all points.
+        """
+        if self._moves.base is not other._moves.base:
+            return None
+        return np.union1d(self._moves.indices, other._moves.indices)
+
+    def places(self, indices: ArrayLike) -> NDArray[np.float64]:
+        """Positions of the points at ``indices`` (k,), shape (k, 2)."""
+        chosen = np.asarray(indices, dtype=np.intp)
+        moves = self._moves
+        positions: NDArray[np.float64] = moves.base[chosen]
+        if len(moves.indices):
+            found = np.minimum(np.searchsorted(moves.indices, chosen), len(moves.indices) - 1)
+            moved = moves.indices[found] == chosen
+            positions[moved] = moves.positions[found[moved]]
+        return positions
 
     def inserted(self, index: int, position: ArrayLike) -> Curve:
         """Copy with a new point before point ``index`` (0 to n)."""
@@ -110,7 +177,7 @@ class Document:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "curves", tuple(self.curves))
-        total = sum(len(curve.points) for curve in self.curves)
+        total = sum(curve.count for curve in self.curves)
         if total > MAX_POINTS:
             raise NinepointError(
                 f"The drawing has {total:,} control points; at most {MAX_POINTS:,} are admitted."
@@ -134,3 +201,16 @@ class Document:
     def with_parameters(self, parameters: Parameters) -> Document:
         """Copy drawn by another member of the family."""
         return replace(self, parameters=parameters)
+
+
+def _check(points: NDArray[np.float64], indices: NDArray[np.intp], name: str) -> None:
+    """Refuse points that are not admitted; the message counts them from 1 by ``indices``."""
+    # A comparison with nan is false, so this catches nan as well.
+    bad = ~(np.abs(points) <= MAX_COORDINATE_MM).all(axis=1)
+    if bad.any():
+        first = int(bad.argmax())
+        x, y = points[first]
+        raise NinepointError(
+            f"Point {indices[first] + 1} of {name!r} is ({x:g}, {y:g}); coordinates must be"
+            f" finite and at most {MAX_COORDINATE_MM:g} mm."
+        )

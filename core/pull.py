@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from core.basis import BasicLimitFunction
 from core.ends import extended, reach
 from core.errors import NinepointError
-from core.limit import LimitCurve
+from core.limit import span_of
 from core.mask import Mask
 
 
@@ -36,7 +36,7 @@ def control_weights(
         ``C(t) = sum_k weights[k] p_{indices[k]}``; the indices are distinct, the weights sum to 1.
     """
     left, right = reach(mask)
-    span, tau = LimitCurve(np.zeros((count, 2)), mask, closed).span_of(t)
+    span, tau = span_of(t, count if closed else count - 1, closed)
     weights = BasicLimitFunction(mask).weights(tau)
     if closed:
         places = np.arange(span - left, span + right + 2) % count
@@ -54,18 +54,19 @@ def control_weights(
     return np.arange(first, last), weights[: len(window)] @ window
 
 
-def pulled(
-    points: ArrayLike,
+def pull(
+    points: NDArray[np.float64],
     mask: Mask,
     closed: bool,
     t: float,
     target: ArrayLike,
     pinned: Collection[int] = (),
-) -> NDArray[np.float64]:
-    """Control points that put the curve point ``C(t)`` exactly on a target.
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Which control points have to move, and whereto, to put ``C(t)`` exactly on a target.
 
     Of all changes that do so it is the one with the least sum of squared moves: with
     ``C(t) = sum_j w_j p_j``, each free point moves by ``w_j / sum_k w_k^2`` times the way to go.
+    The cost does not depend on the number of points.
 
     Parameters
     ----------
@@ -80,21 +81,35 @@ def pulled(
 
     Returns
     -------
-    ndarray
-        New control points, shape (n, 2).
+    indices, positions
+        Shapes (k,) and (k, 2), the indices rising.
 
     Raises
     ------
     NinepointError
         If all points that carry the place are pinned.
     """
-    polygon = np.array(points, dtype=np.float64)
-    indices, weights = control_weights(len(polygon), mask, closed, t)
+    indices, weights = control_weights(len(points), mask, closed, t)
     free = ~np.isin(indices, list(pinned))
     strength = float(weights[free] @ weights[free])
     # Below this the neighbours would move by a million times the way to go.
     if strength < 1e-12:
         raise NinepointError("All points that hold this part of the curve are pinned.")
-    way = np.asarray(target, dtype=np.float64) - weights @ polygon[indices]
-    polygon[indices[free]] += np.outer(weights[free] / strength, way)
+    way = np.asarray(target, dtype=np.float64) - weights @ points[indices]
+    moves = np.outer(weights[free] / strength, way)
+    return indices[free], points[indices[free]] + moves
+
+
+def pulled(
+    points: ArrayLike,
+    mask: Mask,
+    closed: bool,
+    t: float,
+    target: ArrayLike,
+    pinned: Collection[int] = (),
+) -> NDArray[np.float64]:
+    """All control points after `pull`, shape (n, 2)."""
+    polygon = np.array(points, dtype=np.float64)
+    indices, positions = pull(polygon, mask, closed, t, target, pinned)
+    polygon[indices] = positions
     return polygon

@@ -1,7 +1,12 @@
 """Documents are immutable values with admitted coordinates."""
 
+import tracemalloc
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from core.document import MAX_COORDINATE_MM, MAX_POINTS, Curve, Document
 from core.errors import NinepointError
@@ -75,3 +80,68 @@ def test_a_loop_needs_three_points(n, closed, loop):
 def test_two_points_of_a_closed_curve_are_drawn_as_the_segment_between_them():
     points = Curve([(0, 0), (8, 4)], closed=True).limit(PRESETS["B-spline"]).points(2)
     np.testing.assert_allclose(points, [(0, 0), (2, 1), (4, 2), (6, 3), (8, 4)], atol=1e-12)
+
+
+@given(
+    st.integers(1, 80),
+    st.lists(st.lists(st.integers(-80, 79), max_size=5), max_size=5),
+    st.integers(0, 999),
+)
+def test_moves_on_moves_are_those_of_plain_arrays(count, moves, seed):
+    rng = np.random.default_rng(seed)
+    curve, points = Curve(rng.normal(size=(count, 2))), None
+    points = curve.points.copy()
+    curves = [curve]
+    for indices in moves:
+        chosen = [i % count for i in indices]
+        positions = rng.normal(size=(len(chosen), 2))
+        curve = curve.moved(chosen, positions)
+        for i, place in zip(chosen, positions, strict=True):
+            points[i] = place
+        np.testing.assert_array_equal(curve.places(np.arange(count)), points)
+        curves.append(curve)
+    for other in curves:
+        different = curve.differences(other)
+        if different is not None:
+            changed = np.flatnonzero((curve.points != other.points).any(axis=1))
+            assert set(changed) <= set(different)
+    np.testing.assert_array_equal(curve.points, points)
+    assert curve.count == count
+    with pytest.raises(ValueError, match="read-only"):
+        curve.points[0] = 1.0
+
+
+def test_a_move_in_a_long_curve_costs_what_moves():
+    curve = Curve(np.zeros((200_000, 2)))
+    tracemalloc.start()
+    try:
+        moved = curve.moved([7, -1], [(1.0, 2.0), (3.0, 4.0)])
+        Document((moved,))
+        again = moved.moved(7, (5.0, 6.0))
+        assert again.is_loop
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 20_000
+    assert again.differences(moved).tolist() == [7, 199_999]
+    assert again.places([6, 7, 199_999]).tolist() == [[0, 0], [5, 6], [3, 4]]
+    assert again.differences(Curve(np.zeros((200_000, 2)))) is None
+    assert again.points[7].tolist() == [5, 6]
+    assert moved.points[7].tolist() == [1, 2]
+    assert replace(moved, name="wing").points[-1].tolist() == [3, 4]
+
+
+@pytest.mark.parametrize("index", [4, -5])
+def test_a_point_that_is_not_there_cannot_move(index):
+    with pytest.raises(IndexError, match="4 points"):
+        Curve(SQUARE).moved(index, (0, 0))
+
+
+def test_a_move_out_of_reach_is_refused_by_point():
+    with pytest.raises(NinepointError, match="Point 3 of 'wing'"):
+        Curve(SQUARE, name="wing").moved([0, 2], [(0, 0), (float("nan"), 0)])
+
+
+def test_an_attribute_that_is_not_there_is_missed():
+    with pytest.raises(AttributeError, match="colour"):
+        _ = Curve(SQUARE).colour

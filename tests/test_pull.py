@@ -1,13 +1,16 @@
 """Pulling the curve: it lands exactly, and by the smallest change."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import NinepointError
+from core.family import PRESETS
 from core.limit import LimitCurve
-from core.pull import control_weights, pulled
+from core.pull import control_weights, pull, pulled
 from oracles import convergent_members
 
 SETTING = (
@@ -75,3 +78,20 @@ def test_the_end_of_an_open_curve_is_its_end_point_alone(parameters, seed):
 def test_a_place_held_by_pinned_points_only_is_refused(parameters):
     with pytest.raises(NinepointError, match="pinned"):
         pulled(np.eye(2), parameters.mask, False, 0.5, (0, 0), pinned={0, 1})
+
+
+def test_a_pull_names_the_points_that_move_and_costs_no_more():
+    points = np.random.default_rng(4).normal(size=(100_000, 2))
+    mask = PRESETS["Lean"].mask
+    pull(points, mask, True, 70_000.3, (1.0, 2.0))
+    tracemalloc.start()
+    try:
+        indices, positions = pull(points, mask, True, 70_000.3, (1.0, 2.0))
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 50_000
+    expected = points.copy()
+    expected[indices] = positions
+    assert len(indices) <= 18
+    np.testing.assert_array_equal(pulled(points, mask, True, 70_000.3, (1.0, 2.0)), expected)
