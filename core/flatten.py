@@ -55,9 +55,10 @@ _LARGEST_CORRECTION: Final = 1.5
 """Factor by which a density is changed at most in one correction."""
 
 _EXTREME_SHARE: Final = 1 / 4
-"""Share of the admitted deviation by which an extreme has to lie beyond both ends to count."""
+"""Share of the admitted deviation by which an extreme has to lie beyond both ends to count, and
+the way to or from a turning point has to be longer."""
 
-_FEWEST_CLOSED: Final = 3
+FEWEST_CLOSED: Final = 3
 """Chords of a closed curve, so that a tolerance beyond its size does not make it a dot."""
 
 
@@ -112,7 +113,7 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     pieces: list[NDArray[np.float64]] = []
     deviation = 0.0
     for samples in Sampling(curve, tolerance, _BOUND_SHARE).blocks():
-        fewest = _FEWEST_CLOSED if curve.closed and not pieces else 1
+        fewest = FEWEST_CLOSED if curve.closed and not pieces else 1
         cuts, found = _cuts(samples.x, samples.y, tolerance - samples.bound, fewest)
         deviation = max(deviation, found + samples.bound)
         pieces.append(np.stack([samples.x[cuts[:-1]], samples.y[cuts[:-1]]], axis=1))
@@ -163,7 +164,11 @@ def _fixed(
     """
     along = step_x[:-1] * step_x[1:]
     along += step_y[:-1] * step_y[1:]
-    chosen = [np.array([0, len(step_x)]), np.flatnonzero(along < 0) + 1]
+    turns = np.concatenate([[0], np.flatnonzero(along < 0) + 1, [len(step_x)]])
+    strides = np.hypot(np.diff(x[turns]), np.diff(y[turns]))
+    # Rings and rounding about a place where the curve stops turn back a hundred times.
+    far = strides > _EXTREME_SHARE * admitted
+    chosen = [turns[[0, -1]], turns[1:-1][far[:-1] | far[1:]]]
     for values in (x, y):
         extremes = np.array([values.argmin(), values.argmax()])
         beyond = np.abs(values[[0, -1]][:, None] - values[extremes]).min(axis=0)
