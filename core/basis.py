@@ -256,16 +256,21 @@ def _exact_value(phi: BasicLimitFunction, x: Fraction) -> Fraction:
 
 @lru_cache(maxsize=MEMORY)
 def _float_values(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
-    """Level by level: ``v[k] at level L+1 = sum_i a_i v[k - (i - start) 2^L] at level L``."""
+    """Level by level: ``Phi(y) = T_e Phi(2y - e)`` (see `weights`), for all y of a level at once."""
     if level == 0:
         values = phi._float_integer_values
     else:
-        coarse = _float_values(phi, level - 1)
-        step = 2 ** (level - 1)
         width = phi.mask.end - phi.mask.start
-        values = np.zeros(2 * width * step + 1)
-        for i, a in enumerate(phi.mask.values):
-            values[i * step : i * step + len(coarse)] += a * coarse
+        coarse = _float_values(phi, level - 1)
+        half = 2 ** (level - 1)
+        # Column m is Phi(m / half), and phi(end + y) = 0 is its last entry.
+        columns = np.zeros((width + 1, half))
+        columns[:-1] = coarse[:-1].reshape(width, half)
+        values = np.zeros(2 * width * half + 1)
+        rows = values[:-1].reshape(width, 2 * half)
+        for digit in (0, 1):
+            matrix = _digit_matrix(phi.mask, digit)[:-1]
+            np.matmul(matrix, columns, out=rows[:, digit * half : (digit + 1) * half])
     values.flags.writeable = False
     return values
 
