@@ -280,11 +280,17 @@ class Chart(QWidget):
             x = self.place_px(u, up[0]).x()
             box = QRectF(x - 24, area.bottom() + 3, 48, BELOW_PX - 3)
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, _signed(u))
+        right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         for v in _ticks(up):
             y = self.place_px(across[0], v).y()
             box = QRectF(0, y - 8, LEFT_PX - 5, 16)
-            right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
             painter.drawText(box, right, _signed(v))
+        if self._plane is not None:
+            painter.setPen(color(colours.text))
+            box = QRectF(area.right() + 8, area.bottom() + 3, LEGEND_PX - 8, BELOW_PX - 3)
+            painter.drawText(box, Qt.AlignmentFlag.AlignVCenter, _named(self._plane.u_axis))
+            box = QRectF(0, area.top() - 2, LEFT_PX - 5, 16)
+            painter.drawText(box, right, _named(self._plane.v_axis))
 
     def _paint_legend(
         self, painter: QPainter, colours: Palette, area: QRectF, scale: Scale
@@ -329,6 +335,11 @@ def _ticks(ends: tuple[float, float]) -> list[float]:
     step = 0.5 if ends[1] - ends[0] >= 1 else 0.25
     first, last = np.ceil(ends[0] / step), np.floor(ends[1] / step)
     return [float(k) * step for k in np.arange(first, last + 1)]
+
+
+def _named(axis: tuple[int, int, int]) -> str:
+    """What runs along an axis: "α", or "α = γ"."""
+    return " = ".join(name for name, part in zip("\u03b1\u03b2\u03b3", axis, strict=True) if part)
 
 
 def _signed(value: float) -> str:

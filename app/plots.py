@@ -191,13 +191,16 @@ class AnalysisPlot(pg.PlotWidget):
             self.show_parameters(new.parameters)
 
     def _colour(self) -> None:
+        item = self.getPlotItem()
+        if item is None:
+            return  # pyqtgraph takes a closed plot apart, but Qt goes on telling it of palettes
         # Widths of pyqtgraph's pens are device pixels.
         colours, ratio = palette_of(self), self.devicePixelRatioF()
         self.setBackground(colours.plot_background)
         font = QFont(self.font())
         font.setPointSizeF(max(font.pointSizeF() - 1, 1.0))
         for side in ("bottom", "left"):
-            axis = self.getPlotItem().getAxis(side)
+            axis = item.getAxis(side)
             axis.setPen(pg.mkPen(colours.plot_grid, width=ratio))
             axis.setTextPen(pg.mkPen(colours.muted_text))
             axis.setTickFont(font)

@@ -197,3 +197,8 @@ def test_the_derivative_is_shown_on_demand(basis, session):
     assert "\u03c6\u2032 not proven" in basis.sentence
     basis.show_slope(False)
     assert "\u2032" not in basis.sentence
+
+
+def test_a_closed_plot_takes_a_change_of_colours(plot):
+    plot.close()
+    plot._colour()
