@@ -185,6 +185,12 @@ class Background:
         return self._pixmap
 
 
+def has_room(axis: int, place: float, width: float) -> bool:
+    """Whether a label of a width, at a tick, keeps out of the corner of the two rulers."""
+    start = place + LABEL_INDENT_PX if axis == 0 else place - LABEL_INDENT_PX - width
+    return start >= SIZES.ruler
+
+
 def _axis_pixels(
     camera: Camera, axis: int, places_mm: NDArray[np.float64]
 ) -> NDArray[np.float64]:
@@ -210,7 +216,9 @@ def _rule(
 
 
 def _label(painter: QPainter, axis: int, place: float, text: str) -> None:
-    """Write a number beside its tick; on the left ruler it reads upwards."""
+    """Write a number beside its tick, if it has room; on the left ruler it reads upwards."""
+    if not has_room(axis, place, QFontMetricsF(painter.font()).horizontalAdvance(text)):
+        return
     flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextDontClip
     painter.save()
     painter.translate(*((place, 1.0) if axis == 0 else (1.0, place)))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from PySide6.QtGui import QFont, QFontMetricsF
 
 from app.camera import Camera
-from app.grid import Background, Step, ruler_font, step_for, ticks, view_step
+from app.grid import Background, Step, has_room, ruler_font, step_for, ticks, view_step
 from app.style import DARK, LIGHT, SIZES
 
 scales = st.floats(-8, 6).map(lambda e: 10**e)
@@ -32,6 +32,16 @@ def test_the_small_ticks_are_round_too_and_apart(scale):
         part *= 10
     assert part in (1, 2, 5)
     assert step.parts == 1 or step.size_mm * scale / step.parts >= SIZES.minor_spacing
+
+
+@given(st.integers(0, 1), st.floats(-50, 500), st.floats(5, 60))
+def test_labels_are_left_out_rather_than_cut_by_the_corner(axis, place, width):
+    """Along the top a label reads to the right of its tick, along the left side upwards from it."""
+    ends = (place, place + width) if axis == 0 else (place - width, place)
+    if has_room(axis, place, width):
+        assert min(ends) >= SIZES.ruler - 4
+    else:
+        assert min(ends) < SIZES.ruler + 4
 
 
 @pytest.mark.parametrize(
