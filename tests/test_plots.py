@@ -199,6 +199,8 @@ def test_the_derivative_is_shown_on_demand(basis, session):
     assert "\u2032" not in basis.sentence
 
 
-def test_a_closed_plot_takes_a_change_of_colours(plot):
-    plot.close()
-    plot._colour()
+def test_a_closed_plot_bears_a_change_of_colours(plot, monkeypatch):
+    monkeypatch.setattr(plot, "getPlotItem", lambda: None)  # as pyqtgraph's close leaves it
+    QApplication.setPalette(window_palette(DARK))
+    QApplication.setPalette(window_palette(LIGHT))
+    QApplication.processEvents()
