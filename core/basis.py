@@ -256,7 +256,7 @@ def _exact_value(phi: BasicLimitFunction, x: Fraction) -> Fraction:
 
 @lru_cache(maxsize=MEMORY)
 def _float_values(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
-    """Level by level: ``Phi(y) = T_e Phi(2y - e)`` (see `weights`), for all y of a level at once."""
+    """Level by level: ``Phi(y) = T_e Phi(2y - e)``, see `weights`, for all y of a level at once."""
     if level == 0:
         values = phi._float_integer_values
     else:
