@@ -33,7 +33,7 @@ SIZE_POINTS: Final = 2_000_000
 
 
 class StatusBar(QStatusBar):
-    """Hint, size, zoom and cursor; sentences cover the hint for a while.
+    """Hint, size, zoom and cursor; a sentence takes the place of the hint for a while.
 
     Parameters
     ----------
@@ -60,6 +60,11 @@ class StatusBar(QStatusBar):
         self.size_label = self._figure("Size of the drawing", "9999.99 \u00d7 9999.99 mm")
         self.zoom_label = self._figure("Zoom", "100000 %")
         self.cursor_label = self._figure("Cursor", "\N{MINUS SIGN}9999.99, \N{MINUS SIGN}9999.99")
+        self._hint = ""
+        self._telling = QTimer(self)
+        self._telling.setSingleShot(True)
+        self._telling.setInterval(MESSAGE_MS)
+        self._telling.timeout.connect(lambda: self.hint.setText(self._hint))
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.setInterval(SIZE_DELAY_MS)
@@ -76,9 +81,20 @@ class StatusBar(QStatusBar):
         self.addPermanentWidget(label)
         return label
 
+    def show_hint(self, hint: str) -> None:
+        """Show what the tool would do, as soon as no sentence is being told."""
+        self._hint = hint
+        if not self._telling.isActive():
+            self.hint.setText(hint)
+
     def tell(self, sentence: str) -> None:
-        """Show a sentence for a while."""
-        self.showMessage(sentence, MESSAGE_MS)
+        """Show a sentence for a while, in the place of the hint.
+
+        QStatusBar's own messages hide the hint only while the bar is visible: told before the
+        window is shown, they would be painted over it.
+        """
+        self.hint.setText(sentence)
+        self._telling.start()
 
     def show_finding(self, finding: Finding) -> None:
         """Show the class that is proven; a click asks for the report."""

@@ -131,7 +131,7 @@ class MainWindow(QMainWindow):
         session.selection_changed.connect(lambda _old, _new: self.commands.refresh())
         self.files.title_changed.connect(self._show_title)
         self.files.opened.connect(canvas.fit_all)
-        canvas.hint_changed.connect(status.hint.setText)
+        canvas.hint_changed.connect(status.show_hint)
         canvas.cursor_moved.connect(status.show_cursor)
         canvas.zoom_changed.connect(status.show_zoom)
         canvas.tool_changed.connect(lambda _tool: self.commands.refresh())

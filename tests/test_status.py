@@ -81,3 +81,19 @@ def test_a_long_hint_does_not_widen_the_window(bar):
     before = bar.minimumSizeHint().width()
     bar.hint.setText("word " * 200)
     assert bar.minimumSizeHint().width() == before
+
+
+def test_a_sentence_takes_the_place_of_the_hint_for_a_while(qtbot):
+    bar = StatusBar(Session())
+    qtbot.addWidget(bar)
+    bar.show_hint("Drag a point")
+    bar.tell("Saved wing.ninepoint.")
+    assert bar.hint.text() == "Saved wing.ninepoint."
+    assert bar.currentMessage() == ""
+    bar.show_hint("Drag on empty space")
+    assert bar.hint.text() == "Saved wing.ninepoint."
+    bar._telling.timeout.emit()
+    bar._telling.stop()
+    assert bar.hint.text() == "Drag on empty space"
+    bar.show_hint("Drag a point")
+    assert bar.hint.text() == "Drag a point"

@@ -140,7 +140,7 @@ def test_a_dropped_file_opens(qtbot, window, tmp_path):
         assert dropped(window, path, tmp_path / "other.csv")
     assert len(window.session.document.curves[0].points) == 3
     assert window.windowTitle() == "points[*] - Ninepoint"
-    assert "the first of 2" in window.status.currentMessage()
+    assert "the first of 2" in window.status.hint.text()
 
 
 def test_a_bad_dropped_file_leaves_the_drawing(qtbot, window, answers, tmp_path):
