@@ -21,7 +21,7 @@ from app.analysis import Finding
 from app.guard import guarded
 from app.style import palette_of
 from core.report import Report
-from core.wording import as_latex, as_text
+from core.wording import as_latex, as_text, sections
 
 WAITING: Final = "<p>The report comes in a moment.</p>"
 """What is read before the first report."""
@@ -105,7 +105,7 @@ class ReportPanel(QWidget):
             return
         bar = self.page.verticalScrollBar()
         place = bar.value()
-        self.page.setHtml(arranged(as_text(self.report), palette_of(self).muted_text))
+        self.page.setHtml(arranged(sections(self.report), palette_of(self).muted_text))
         bar.setValue(place)  # what was being read stays in sight
 
     def _copy(self, form: str) -> None:
@@ -134,33 +134,32 @@ class ReportPanel(QWidget):
         self.read.emit(False)
 
 
-def arranged(text: str, muted: str) -> str:
-    """The lines of a report as rich text: headings, formulas, long sums that break between terms.
+def arranged(sections: list[tuple[str, list[str]]], muted: str) -> str:
+    """A report as rich text: headings, formulas, long sums that break between terms.
 
     Parameters
     ----------
-    text
-        What `core.wording.as_text` gives: titles at the margin, rows below them indented.
+    sections
+        Titles and rows, as of `core.wording.sections`.
     muted
         Colour of what a formula defines, ``"#rrggbb"``.
     """
     parts = []
-    for line in text.splitlines():
-        if not line:
-            continue
-        words = _formula(line.strip())
-        if not line.startswith(" "):
-            parts.append(f"<h3 style='margin: 14px 0 4px 0'>{words}</h3>")
-            continue
-        row = _FORMULA.match(words)
-        if row is None:
-            parts.append(f"<p style='margin: 2px 0'>{words}</p>")
-            continue
-        parts.append(
-            f"<p style='margin: 6px 0 0 0; color: {muted}'>{row[1]}</p>"
-            f"<p style='margin: 0 0 0 12px'><tt>{row[2]}</tt></p>"
-        )
+    for title, rows in sections:
+        parts.append(f"<h3 style='margin: 14px 0 4px 0'>{_formula(title)}</h3>")
+        parts += [_paragraph(_formula(row), muted) for row in rows]
     return "".join(parts)
+
+
+def _paragraph(words: str, muted: str) -> str:
+    """One row: what a formula defines above the formula, or a sentence."""
+    row = _FORMULA.match(words)
+    if row is None:
+        return f"<p style='margin: 2px 0'>{words}</p>"
+    return (
+        f"<p style='margin: 6px 0 0 0; color: {muted}'>{row[1]}</p>"
+        f"<p style='margin: 0 0 0 12px'><tt>{row[2]}</tt></p>"
+    )
 
 
 def _formula(line: str) -> str:

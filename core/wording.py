@@ -37,7 +37,8 @@ def class_statement(report_class: int | None, not_class: int, convergence: Conve
 def percentage(interval: Interval) -> str:
     """An excess in percent, in as many digits as are proven; zero as "none seen above ..."."""
     if math.isinf(interval.upper):
-        return f"at least {100 * interval.lower:.4g} %, no bound proven"
+        seen = f"at least {100 * interval.lower:.4g} %, " if interval.lower > 0 else ""
+        return seen + "no bound proven"
     if interval.upper == 0:
         return "none, proven"
     if interval.upper <= 2 * WIDTH and interval.lower < WIDTH / 10:
@@ -52,12 +53,13 @@ def as_text(report: Report) -> str:
     full.
     """
     lines: list[str] = []
-    for title, rows in _sections(report):
+    for title, rows in sections(report):
         lines += [title, *(f"  {row}" for row in rows), ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _sections(report: Report) -> list[tuple[str, list[str]]]:
+def sections(report: Report) -> list[tuple[str, list[str]]]:
+    """The report as pairs of a title and its rows, for a view that sets them itself."""
     p, mask = report.parameters, report.mask
     low, high = report.support
     return [

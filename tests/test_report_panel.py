@@ -10,7 +10,7 @@ from app.style import DARK, LIGHT
 from app.theme import window_palette
 from core.family import PRESETS, Parameters
 from core.report import report
-from core.wording import as_latex, as_text
+from core.wording import as_latex, as_text, sections
 
 LONG = Parameters("1/3", "-2/5", "-1/7")
 
@@ -117,7 +117,7 @@ def test_another_colour_scheme_reaches_the_page(panel, colours):
 
 @pytest.mark.parametrize("parameters", [Parameters(100, -100, 100), Parameters(0, 0, "99/7")])
 def test_a_divergent_scheme_has_a_report(parameters):
-    markup = arranged(as_text(report(parameters)), LIGHT.muted_text)
+    markup = arranged(sections(report(parameters)), LIGHT.muted_text)
     assert "does not converge, proven" in markup
     assert "nan" not in markup
 
@@ -134,4 +134,4 @@ def test_a_divergent_scheme_has_a_report(parameters):
     ],
 )
 def test_letters_of_formulas(line, markup):
-    assert markup in arranged("  " + line, LIGHT.muted_text)
+    assert markup in arranged([("Rules", [line])], LIGHT.muted_text)
