@@ -132,19 +132,22 @@ def _join(
     """Add chords over children (m, 8), over four or two at once where they keep the tolerance."""
     left = taken
     for step in (4, 2, 1):
-        groups = FAN // step
-        free = left.reshape(-1, groups, step).all(axis=2)
-        corners = step * np.arange(groups)[:, None] + np.arange(step + 1)
+        groups = left.reshape(-1, FAN // step, step)
+        rows, group = np.nonzero(groups.all(axis=2))
+        if not len(rows):
+            continue
+        place = step * group
         if step > 1:
-            off = from_chords(ends[:, :, corners]).max(axis=-1)
-            off += deviations.reshape(-1, groups, step).max(axis=2)
-            free &= off <= tolerance
-            found.deviation = max(found.deviation, float(off[free].max(initial=0.0)))
-        rows, group = np.nonzero(free)
-        first = children[rows, step * group]
-        outer = ends[:, rows[:, None], corners[group][:, [0, -1]]]
-        found.add_parts(first, step, size, total, outer)
-        left = left & ~np.repeat(free, step, axis=1)
+            off = from_chords(ends[:, rows[:, None], place[:, None] + np.arange(step + 1)])
+            bounds = off.max(axis=1) + deviations.reshape(groups.shape)[rows, group].max(axis=1)
+            good = bounds <= tolerance
+            rows, group, place, bounds = rows[good], group[good], place[good], bounds[good]
+            found.deviation = max(found.deviation, float(bounds.max(initial=0.0)))
+            groups = groups.copy()
+            groups[rows, group] = False
+        outer = ends[:, rows[:, None], place[:, None] + np.array([0, step])]
+        found.add_parts(children[rows, place], step, size, total, outer)
+        left = groups.reshape(left.shape)
 
 
 def _subdivide(

@@ -10,10 +10,10 @@ from itertools import count
 
 import numpy as np
 import pytest
+from comparison import Comparison
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
-from conftest import Comparison
 from core.basis import BasicLimitFunction
 from core.ends import extended
 from core.family import PRESETS, Parameters

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from comparison import Comparison
 from numpy.typing import NDArray
 
-from conftest import Comparison
 from core.document import Curve
 from core.family import PRESETS
 from core.live import LiveCurve
