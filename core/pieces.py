@@ -25,14 +25,14 @@ _GLANCE_SHARE: Final = 0.99
 _GROWTH: Final = 1.5
 """Factor by which a piece grows while it fits."""
 
-_RESOLUTION: Final = 128
+_RESOLUTION: Final = 64
 """A search ends when the length is known to one part in so many."""
 
-_LONGEST_LANE: Final = 2**15
-"""Steps up to which a row is one lane, so that small drawings have no needless cuts."""
-
 _LANE: Final = 2**11
-"""Steps of a lane of a longer row."""
+"""Steps of a lane at first."""
+
+_PIECES_A_LANE: Final = 32
+"""Pieces that a lane should have at least; each lane may cost one piece more than needed."""
 
 _CHUNK: Final = 2**17
 """Number of samples looked at in one go."""
@@ -85,7 +85,11 @@ def fitted(
         Samples between pieces, with both ends, shape (n + 1,), and for each piece what `Fit.solve`
         gives.
     """
-    cuts = _searched(steps, fit, admitted * _GLANCE_SHARE, longest)
+    lanes = steps // _LANE + 1
+    cuts = _searched(steps, fit, admitted * _GLANCE_SHARE, longest, lanes)
+    fewer = max(len(cuts) // _PIECES_A_LANE, 1)
+    if fewer < lanes:
+        cuts = _searched(steps, fit, admitted * _GLANCE_SHARE, longest, fewer)
     errors, rows = _looked_at(fit, cuts[:-1], cuts[1:])
     while True:
         wide = np.flatnonzero((errors > admitted) & (np.diff(cuts) > 1))
@@ -100,9 +104,8 @@ def fitted(
         cuts = np.insert(cuts, wide + 1, middle)
 
 
-def _searched(steps: int, fit: Fit, admitted: float, longest: int) -> NDArray[np.intp]:
-    """Cuts by the longest pieces that seem to fit."""
-    lanes = 1 if steps <= _LONGEST_LANE else steps // _LANE
+def _searched(steps: int, fit: Fit, admitted: float, longest: int, lanes: int) -> NDArray[np.intp]:
+    """Cuts by the longest pieces that seem to fit, in each lane from its start."""
     ends = np.linspace(0, steps, lanes + 1).astype(np.intp)
     place, stop = ends[:-1].copy(), ends[1:]
     length = np.maximum((stop - place) // 8, 1)

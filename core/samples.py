@@ -34,7 +34,7 @@ _LARGEST_BOUND_SHARE: Final = 1 / 2
 """Share of the tolerance that the bound between the samples may take where a rough curve does not
 come down to the share that was asked for at `FINEST_LEVEL`."""
 
-_BLOCK_SAMPLES: Final = 2**16
+BLOCK: Final = 2**16
 """Number of samples held at a time, unless one span has more: they fit the processor's cache."""
 
 _PLENTY: Final = 2**15
@@ -100,11 +100,13 @@ class Sampling:
         """Largest bound between the samples of any span."""
         return float(self.bounds.max())
 
-    def blocks(self, slopes: bool = False) -> Iterator[Samples]:
+    def blocks(self, size: int = BLOCK, slopes: bool = False) -> Iterator[Samples]:
         """Samples of runs of spans; the last of a block is, up to rounding, the first of the next.
 
         Parameters
         ----------
+        size
+            Number of samples of a block, unless one span has more.
         slopes
             Whether derivatives are wanted. The scheme must be C^1.
         """
@@ -112,7 +114,7 @@ class Sampling:
         begin = 0
         while begin < len(ends):
             before = ends[begin - 1] if begin else 0
-            end = int(np.searchsorted(ends, before + _BLOCK_SAMPLES, side="right"))
+            end = int(np.searchsorted(ends, before + size, side="right"))
             end = max(end, begin + 1)
             yield self._block(begin, end, slopes)
             begin = end
