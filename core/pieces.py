@@ -86,10 +86,12 @@ def fitted(
         gives.
     """
     lanes = steps // _LANE + 1
-    cuts = _searched(steps, fit, admitted * _GLANCE_SHARE, longest, lanes)
-    fewer = max(len(cuts) // _PIECES_A_LANE, 1)
-    if fewer < lanes:
-        cuts = _searched(steps, fit, admitted * _GLANCE_SHARE, longest, fewer)
+    while True:
+        cuts = _searched(steps, fit, admitted * _GLANCE_SHARE, longest, lanes)
+        wanted = max(len(cuts) // _PIECES_A_LANE, 1)
+        if wanted >= lanes:
+            break
+        lanes = wanted
     errors, rows = _looked_at(fit, cuts[:-1], cuts[1:])
     while True:
         wide = np.flatnonzero((errors > admitted) & (np.diff(cuts) > 1))
@@ -143,7 +145,8 @@ def _longest(
         low, high = fits[open_], fails[open_]
         grown = np.maximum((low * _GROWTH).astype(np.intp), low + 1)
         trial[open_] = np.where(high > room[open_], np.minimum(grown, high - 1), (low + high) // 2)
-        going = high - low > np.maximum(low // _RESOLUTION, 1)
+        untried = (high > room[open_]) & (low < room[open_])
+        going = untried | (high - low > np.maximum(low // _RESOLUTION, 1))
         open_ = open_[going]
     return np.maximum(fits, 1)
 

@@ -1,5 +1,7 @@
 """Samples of a curve, and the bound of what lies between them."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -22,7 +24,7 @@ def polygons(seed, count):
 
 def joined(blocks, name):
     values = [getattr(block, name) for block in blocks]
-    for before, after in zip(values, values[1:], strict=False):
+    for before, after in pairwise(values):
         np.testing.assert_allclose(before[-1], after[0], rtol=0, atol=1e-12)
     return np.concatenate([*(v[:-1] for v in values), values[-1][-1:]])
 
