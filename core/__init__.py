@@ -4,8 +4,10 @@ NumPy only: it runs without a screen. What reads and writes files is imported fr
 ``core.store`` and ``core.formats``, so that the mathematics loads alone.
 """
 
+from core.arcs import Arcs, arcs
 from core.atlas import Plane, Quantity, parameter_map, smoothest_beta
 from core.basis import BasicLimitFunction
+from core.beziers import Beziers, beziers
 from core.cells import Interval
 from core.continuity import Certificate, Convergence, Smoothness, certificate, smoothness
 from core.document import Curve, Document
@@ -32,7 +34,9 @@ from core.view import view
 
 __all__ = [
     "PRESETS",
+    "Arcs",
     "BasicLimitFunction",
+    "Beziers",
     "Certificate",
     "Convergence",
     "Curve",
@@ -62,6 +66,8 @@ __all__ = [
     "Stencil",
     "StepResponse",
     "Violation",
+    "arcs",
+    "beziers",
     "branch_and_bound",
     "bspline",
     "certificate",
