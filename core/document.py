@@ -111,18 +111,18 @@ class Curve:
         places[:] = positions
         _check(places, chosen, self.name)
         # Of several positions for one point the last one holds.
+        if len(chosen) > _MOVED_SHARE * count:
+            points = self.points.copy()
+            points[chosen] = places
+            return replace(self, points=points)
         before = self._moves
         together = np.concatenate([before.indices, chosen])[::-1]
         changed, last = np.unique(together, return_index=True)
         places = np.concatenate([before.positions, places])[::-1][last]
-        if len(changed) > _MOVED_SHARE * count:
-            points = self.points.copy()
-            points[changed] = places
-            return replace(self, points=points)
         curve = object.__new__(Curve)
         moves = _Moves(before.base, changed, places)
         vars(curve).update(closed=self.closed, name=self.name, _moves=moves)
-        return curve
+        return replace(curve) if len(changed) > _MOVED_SHARE * count else curve
 
     def differences(self, other: Curve) -> NDArray[np.intp] | None:
         """Indices of the points that may lie elsewhere in another curve, rising.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -9,6 +11,9 @@ from core.ends import extended, far, reach, write_ends
 from core.limit import LimitCurve
 from core.mask import Mask
 from core.ranges import around, within
+
+_MANY_SHARE: Final = 1 / 16
+"""Share of the points from which on all spans count as touched: sorting would cost more."""
 
 
 class LiveCurve(LimitCurve):
@@ -67,6 +72,8 @@ class LiveCurve(LimitCurve):
         at_start, at_end = moved.min() < margin, moved.max() >= count - margin
         if at_start or at_end:
             write_ends(store.T, points, self.mask, self.closed)
+        if moved.size > _MANY_SHARE * count:
+            return (range(self.spans),)
         touched = around(moved, 1 + right, left + 1)
         if not self.closed:
             # A centre moves with the points that it is made of, and reflects the spans' windows.

@@ -100,33 +100,33 @@ class Pyramid:
         touched
             Ranges of spans, as `core.live.LiveCurve.move` returns them.
         """
-        for spans in touched:
-            first, after = spans.start // FAN, -(-spans.stop // FAN)
-            for begin in range(first, after, _CHUNK):
-                self._write_blocks(begin, min(begin + _CHUNK, after))
-            for level in range(1, len(self.ends)):
-                first, after = first // FAN, -(-after // FAN)
-                self._write_nodes(level, first, after)
+        nodes = _unique([np.arange(r.start // FAN, -(-r.stop // FAN)) for r in touched])
+        for begin in range(0, len(nodes), _CHUNK):
+            self._write_blocks(nodes[begin : begin + _CHUNK])
+        for level in range(1, len(self.ends) if len(nodes) else 0):
+            nodes = _unique([nodes // FAN])
+            self._write_nodes(level, nodes)
 
-    def _write_blocks(self, first: int, after: int) -> None:
-        ends, deviations = self.spans_of(np.arange(first, after))
+    def _write_blocks(self, blocks: NDArray[np.intp]) -> None:
+        ends, deviations = self.spans_of(blocks)
         largest = deviations.max(axis=1)
-        self._write_ends(0, first, after, ends)
-        self.boxes[0][:, first:after] = boxes_of(ends) - largest
-        self.deviations[0][first:after] = largest + from_chords(ends).max(axis=1)
+        self._write_ends(0, blocks, ends)
+        self.boxes[0][:, blocks] = boxes_of(ends) - largest
+        self.deviations[0][blocks] = largest + from_chords(ends).max(axis=1)
 
-    def _write_nodes(self, level: int, first: int, after: int) -> None:
-        inner = slice(first * FAN, after * FAN)
-        ends = children_ends(self.ends[level - 1], np.arange(first, after))
-        largest = folded(np.maximum, self.deviations[level - 1][inner])
-        self._write_ends(level, first, after, ends)
-        self.boxes[level][:, first:after] = folded(np.minimum, self.boxes[level - 1][:, inner])
-        self.deviations[level][first:after] = largest + from_chords(ends).max(axis=1)
+    def _write_nodes(self, level: int, nodes: NDArray[np.intp]) -> None:
+        children = (FAN * nodes[:, None] + np.arange(FAN)).ravel()
+        ends = children_ends(self.ends[level - 1], nodes)
+        largest = folded(np.maximum, self.deviations[level - 1][children])
+        self._write_ends(level, nodes, ends)
+        self.boxes[level][:, nodes] = folded(np.minimum, self.boxes[level - 1][:, children])
+        self.deviations[level][nodes] = largest + from_chords(ends).max(axis=1)
 
-    def _write_ends(self, level: int, first: int, after: int, ends: NDArray[np.float64]) -> None:
+    def _write_ends(self, level: int, nodes: NDArray[np.intp], ends: NDArray[np.float64]) -> None:
         held = self.ends[level]
-        held[:, first:after] = ends[:, :, 0]
-        held[:, after] = ends[:, -1, -1]
+        held[:, nodes] = ends[:, :, 0]
+        held[:, nodes + 1] = ends[:, :, -1]
+        after = int(nodes[-1]) + 1
         if after * FAN ** (level + 1) >= self.spans:
             held[:, after + 1 :] = held[:, after : after + 1]  # empty nodes are points
 
@@ -199,6 +199,15 @@ class PolygonPyramid(Pyramid):
         places = np.minimum(FAN * blocks[:, None] + np.arange(FAN + 1), self.spans)
         ends = self.points[places % len(self.points)].transpose(2, 0, 1)
         return ends, np.zeros((len(blocks), FAN))
+
+
+def _unique(rising: list[NDArray[np.intp]]) -> NDArray[np.intp]:
+    """All values of arrays that rise, one after the other, each value once."""
+    if not rising:
+        return np.zeros(0, dtype=np.intp)
+    values = np.concatenate(rising)
+    found: NDArray[np.intp] = values[np.append(True, values[1:] > values[:-1])]
+    return found
 
 
 def children_ends(below: NDArray[np.float64], nodes: NDArray[np.intp]) -> NDArray[np.float64]:

@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 PARTS: Final = 8
 """Parts into which a stretch of a curve is cut that is too bent for one chord."""
 
+_EXPLORED: Final = 4096
+"""Number of parts, seen in part at best, that are cut at a time to find what is seen of them."""
+
 
 @dataclass(frozen=True, eq=False)
 class Runs:
@@ -65,14 +68,29 @@ class Chords:
         self._points: list[NDArray[np.float64]] = []
 
     def affordable(
-        self, wanted: NDArray[np.bool_], bounds: NDArray[np.float64], count: int
+        self,
+        wanted: NDArray[np.bool_],
+        within: NDArray[np.bool_],
+        bounds: NDArray[np.float64],
+        count: int,
     ) -> NDArray[np.bool_]:
         """Those parts of what is wanted that the budget admits, the most bent ones first.
 
-        ``count`` is the number of chords if none is admitted; each takes `PARTS` instead of one.
+        Parameters
+        ----------
+        wanted
+            Parts that shall be cut.
+        within
+            Parts of which all is seen. Of the others little may be: some are cut for nothing.
+        bounds
+            How bent the parts are.
+        count
+            Number of chords if none is cut; each that is takes `PARTS` instead of one.
         """
         admitted = max((self._left - count) // (PARTS - 1), 0)
-        if int(np.count_nonzero(wanted)) <= admitted:
+        number = int(np.count_nonzero(wanted))
+        certain = int(np.count_nonzero(wanted & within))
+        if number <= admitted or (certain <= admitted and number <= _EXPLORED):
             return wanted
         chosen = np.zeros_like(wanted)
         if admitted:

@@ -30,6 +30,7 @@ from core.pyramid import (
     bends_of,
     boxes_of,
     children_ends,
+    contained,
     from_chords,
     meets,
 )
@@ -102,13 +103,16 @@ def _descend(
         if level:
             ends = children_ends(pyramid.ends[level - 1], nodes)
             deviations = pyramid.deviations[level - 1][children]
-            seen = meets(pyramid.boxes[level - 1][:, children], limits)
+            boxes = pyramid.boxes[level - 1][:, children]
+            seen = meets(boxes, limits)
         else:
             ends, deviations = pyramid.spans_of(nodes)
             pairs = np.stack([ends[:, :, :-1], ends[:, :, 1:]], axis=-1)
-            seen = meets(boxes_of(pairs) - deviations, limits) & (children < total)
+            boxes = boxes_of(pairs) - deviations
+            seen = meets(boxes, limits) & (children < total)
         wanted = seen & (deviations > tolerance)
-        bent = found.affordable(wanted, deviations, int(np.count_nonzero(seen)))
+        within = contained(boxes, limits)
+        bent = found.affordable(wanted, within, deviations, int(np.count_nonzero(seen)))
         taken = seen & ~bent
         found.deviation = max(found.deviation, float(deviations[taken].max(initial=0.0)))
         _join(found, children, taken, ends, deviations, tolerance, FAN**level, total)
@@ -170,11 +174,12 @@ def _subdivide(
     constant = cell_constant(mask)
     table: Callable[[int], NDArray[np.float64]] = basis.span_table
     shrinking = np.array([second_difference_norm(mask, level) for level in range(1, _STEP + 1)])
+    within = np.zeros(len(spans), dtype=bool)
     for _ in range(_ROUNDS):
         levels = 1 + (bounds[:, None] * shrinking > tolerance).sum(axis=1)
         wanted = levels > _STEP
         levels = np.minimum(levels, _STEP)
-        bent = found.affordable(wanted, bounds, int((1 << levels).sum()))
+        bent = found.affordable(wanted, within, bounds, int((1 << levels).sum()))
         for level in range(1, _STEP + 1):
             chosen = ~bent & (levels == level)
             if chosen.any():
@@ -190,12 +195,14 @@ def _subdivide(
         to_parts, table = to_next, basis.cell_table
         bounds = constant * bends_of(windows).max(axis=1)
         ends = windows @ table(0)
-        seen = meets(boxes_of(ends) - bounds, limits)
+        boxes = boxes_of(ends) - bounds
+        seen = meets(boxes, limits)
         straight = seen & (bounds <= tolerance)
         found.add_curve(times[straight], length, ends[:, straight])
         found.deviation = max(found.deviation, float(bounds[straight].max(initial=0.0)))
         bent = seen & ~straight
         windows, times, bounds = windows[:, bent], times[bent], bounds[bent]
+        within = contained(boxes[:, bent], limits)
 
 
 @lru_cache(maxsize=MEMORY)
