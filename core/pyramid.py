@@ -6,11 +6,12 @@ A node of level k stands for 8^k consecutive spans. It holds the points of the c
 box that the curve does not leave, and its *deviation*: a bound of the distance of the curve from
 the chord between the two ends. The control polygon has a pyramid as well; its spans are straight.
 
-On one span the curve stays within ``b = c max |D2p|`` of its chord, c from `core.chords`, proven.
-So on a block of 8 spans it stays within the largest b of the polyline of the 9 ends; and a
-polyline stays as near to a segment as its vertices do, since the distance from a convex set is
-convex. A node of 8 nodes follows in the same way: the largest deviation of the children, plus the
-largest distance of their ends from the chord. All bounds hold up to the rounding of the points.
+On one span each coordinate stays within ``c max |D2p|`` of that of the chord, with its own second
+differences and c from `core.chords`, proven. So on a block of 8 spans the curve stays within the
+largest of these bounds of the polyline of the 9 ends; and a polyline stays as near to a segment as
+its vertices do, since the distance from a convex set is convex. A node of 8 nodes follows in the
+same way: the largest deviation of the children, plus the largest distance of their ends from the
+chord. All bounds hold up to the rounding of the points.
 """
 
 from __future__ import annotations
@@ -78,7 +79,7 @@ class Pyramid:
         self.update((range(spans),))
 
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Ends of the spans of some blocks, and how far each span can leave its chord.
+        """Ends of the spans of some blocks, and how far each coordinate can leave the chord.
 
         Parameters
         ----------
@@ -87,8 +88,8 @@ class Pyramid:
 
         Returns
         -------
-        ends, deviations
-            Shapes (2, m, 9) and (m, 8). Spans beyond the end of the curve are points.
+        ends, margins
+            Shapes (2, m, 9) and (2, m, 8). Spans beyond the end of the curve are points.
         """
         raise NotImplementedError
 
@@ -108,10 +109,11 @@ class Pyramid:
             self._write_nodes(level, nodes)
 
     def _write_blocks(self, blocks: NDArray[np.intp]) -> None:
-        ends, deviations = self.spans_of(blocks)
-        largest = deviations.max(axis=1)
+        ends, margins = self.spans_of(blocks)
+        margins = margins.max(axis=2)
+        largest = np.hypot(margins[0], margins[1])
         self._write_ends(0, blocks, ends)
-        self.boxes[0][:, blocks] = boxes_of(ends) - largest
+        self.boxes[0][:, blocks] = boxes_of(ends) - np.concatenate([margins, margins])
         self.deviations[0][blocks] = largest + from_chords(ends).max(axis=1)
 
     def _write_nodes(self, level: int, nodes: NDArray[np.intp]) -> None:
@@ -164,12 +166,12 @@ class CurvePyramid(Pyramid):
         places = FAN * blocks[:, None] + np.arange(len(self._limits))
         held = coordinates[:, np.minimum(places, coordinates.shape[1] - 1)]
         ends = held @ self._limits
-        deviations = self._chord_constant * running_max(bends_of(held), self._bends)
+        margins = self._chord_constant * running_max(bends_of(held), self._bends)
         beyond = self.spans - FAN * int(blocks[-1])
         if beyond < FAN:
             ends[:, -1, beyond:] = ends[:, -1, beyond : beyond + 1]
-            deviations[-1, beyond:] = 0.0
-        return ends, deviations
+            margins[:, -1, beyond:] = 0.0
+        return ends, margins
 
 
 class PolygonPyramid(Pyramid):
@@ -198,7 +200,7 @@ class PolygonPyramid(Pyramid):
         """Control points at the ends of edges, and zeros; see `Pyramid.spans_of`."""
         places = np.minimum(FAN * blocks[:, None] + np.arange(FAN + 1), self.spans)
         ends = self.points[places % len(self.points)].transpose(2, 0, 1)
-        return ends, np.zeros((len(blocks), FAN))
+        return ends, np.zeros((2, len(blocks), FAN))
 
 
 def _unique(rising: list[NDArray[np.intp]]) -> NDArray[np.intp]:
@@ -216,12 +218,9 @@ def children_ends(below: NDArray[np.float64], nodes: NDArray[np.intp]) -> NDArra
 
 
 def bends_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Sizes of the second differences along the last axis of points (2, ..., r)."""
-    first = np.diff(points)
-    second = np.diff(first)
-    second *= second
-    sizes: NDArray[np.float64] = np.sqrt(second[0] + second[1])
-    return sizes
+    """Sizes of the second differences of each coordinate, along the last axis."""
+    bends: NDArray[np.float64] = np.abs(np.diff(np.diff(points)))
+    return bends
 
 
 def boxes_of(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 PARTS: Final = 8
 """Parts into which a stretch of a curve is cut that is too bent for one chord."""
 
-_EXPLORED: Final = 4096
+_EXPLORED: Final = 2048
 """Number of parts, seen in part at best, that are cut at a time to find what is seen of them."""
 
 
@@ -98,6 +98,12 @@ class Chords:
             worst = np.argpartition(bounds.ravel()[places], -admitted)[-admitted:]
             chosen.ravel()[places[worst]] = True
         return chosen
+
+    def thinned(self, levels: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Dyadic levels, all lowered alike until the budget admits ``2^level`` chords for each."""
+        while levels.any() and int((1 << levels).sum()) > self._left:
+            levels = np.maximum(levels - 1, 0)
+        return levels
 
     def add_parts(
         self,

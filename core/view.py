@@ -106,9 +106,10 @@ def _descend(
             boxes = pyramid.boxes[level - 1][:, children]
             seen = meets(boxes, limits)
         else:
-            ends, deviations = pyramid.spans_of(nodes)
+            ends, margins = pyramid.spans_of(nodes)
+            deviations = np.hypot(margins[0], margins[1])
             pairs = np.stack([ends[:, :, :-1], ends[:, :, 1:]], axis=-1)
-            boxes = boxes_of(pairs) - deviations
+            boxes = boxes_of(pairs) - np.concatenate([margins, margins])
             seen = meets(boxes, limits) & (children < total)
         wanted = seen & (deviations > tolerance)
         within = contained(boxes, limits)
@@ -173,19 +174,21 @@ def _subdivide(
     limits = limits - np.concatenate([shift, -shift])
     constant = cell_constant(mask)
     table: Callable[[int], NDArray[np.float64]] = basis.span_table
-    shrinking = np.array([second_difference_norm(mask, level) for level in range(1, _STEP + 1)])
+    shrinking = np.array([second_difference_norm(mask, level) for level in range(_STEP + 1)])
     within = np.zeros(len(spans), dtype=bool)
     for _ in range(_ROUNDS):
-        levels = 1 + (bounds[:, None] * shrinking > tolerance).sum(axis=1)
+        levels = (bounds[:, None] * shrinking > tolerance).sum(axis=1)
         wanted = levels > _STEP
         levels = np.minimum(levels, _STEP)
         bent = found.affordable(wanted, within, bounds, int((1 << levels).sum()))
-        for level in range(1, _STEP + 1):
-            chosen = ~bent & (levels == level)
+        windows_left, times_left, bounds_left = windows[:, ~bent], times[~bent], bounds[~bent]
+        levels = found.thinned(levels[~bent])
+        for level in range(_STEP + 1):
+            chosen = levels == level
             if chosen.any():
-                points = windows[:, chosen] @ table(level)
-                found.add_curve(times[chosen], length, points)
-                largest = float(bounds[chosen].max()) * float(shrinking[level - 1])
+                points = windows_left[:, chosen] @ table(level)
+                found.add_curve(times_left[chosen], length, points)
+                largest = float(bounds_left[chosen].max()) * float(shrinking[level])
                 found.deviation = max(found.deviation, largest)
         if not bent.any():
             return
@@ -193,9 +196,10 @@ def _subdivide(
         length /= PARTS
         times = (times[bent, None] + length * np.arange(PARTS)).ravel()
         to_parts, table = to_next, basis.cell_table
-        bounds = constant * bends_of(windows).max(axis=1)
+        margins = constant * bends_of(windows).max(axis=2)
+        bounds = np.hypot(margins[0], margins[1])
         ends = windows @ table(0)
-        boxes = boxes_of(ends) - bounds
+        boxes = boxes_of(ends) - np.concatenate([margins, margins])
         seen = meets(boxes, limits)
         straight = seen & (bounds <= tolerance)
         found.add_curve(times[straight], length, ends[:, straight])

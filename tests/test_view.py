@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,10 +12,12 @@ from numpy.typing import NDArray
 
 from core.basis import BasicLimitFunction
 from core.chords import cell_constant
+from core.document import Curve
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
 from core.live import LiveCurve
-from core.pyramid import CurvePyramid
+from core.picking import nearest_point
+from core.pyramid import CurvePyramid, PolygonPyramid
 from core.runs import Runs
 from core.view import refinements, view
 from oracles import convergent_members
@@ -206,3 +210,47 @@ def test_the_parts_of_a_window_draw_the_same_curve(member: Parameters) -> None:
         (parts @ basis.cell_table(2))[:, :-1].ravel(), expected[:-1], atol=1e-13
     )
     assert cell_constant(member.mask) > 0
+
+
+@pytest.mark.parametrize("zoom", [1.0, 5.0, 30.0, 1e3, 1e6])
+def test_a_hatching_costs_no_more_than_it_may_and_is_right_where_it_can_be(zoom: float) -> None:
+    count = 20_000
+    x = np.repeat(np.linspace(-900, 900, count // 2), 2)
+    y = np.where(np.arange(count) % 2, 500.0, -500.0)
+    curve = LimitCurve(np.stack([x, y], axis=-1), PRESETS["Tight"].mask, False)
+    seen = looked_at(curve, curve.at(6000.25), zoom)
+    assert len(seen.vertices) < 20_000
+    if zoom >= 1e3:
+        assert len(seen.vertices) < 700
+        assert seen.deviation <= TOLERANCE_PX / zoom
+        assert true_error(curve, seen, 1) <= seen.deviation + 1e-11
+
+
+def test_an_event_allocates_nothing_of_size_n() -> None:
+    curve = Curve(flower(200_000))
+    live = LiveCurve(curve.points, PRESETS["Calm"].mask, True)
+    pyramid, polygon = CurvePyramid(live), PolygonPyramid(live.control_points, True)
+
+    def event(index: int) -> None:
+        after = curve.moved(index, (30.0, 40.0))
+        changed = after.differences(curve)
+        assert changed is not None
+        pyramid.update(live.move(changed, after.places(changed)))
+        polygon.update(polygon.edges_at(changed))
+        view(pyramid, -HALF_SCREEN, HALF_SCREEN, TOLERANCE_PX)
+        nearest_point(polygon, live.at(index), 8.0)
+
+    event(70_000)
+    tracemalloc.start()
+    try:
+        event(50_000)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 600_000
+
+
+def test_a_scheme_that_does_not_converge_is_seen_at_a_finite_level() -> None:
+    curve = LimitCurve(flower(30), Parameters(100, -100, 100).mask, True)
+    seen = view(PolygonPyramid(curve.points(2), True), np.full(2, -1e9), np.full(2, 1e9), 0.25)
+    assert np.isfinite(seen.vertices).all()
