@@ -112,7 +112,7 @@ class Canvas(Sheet):
 
     def select_all(self) -> None:
         """Select all control points."""
-        sizes = [len(curve.points) for curve in self.session.document.curves]
+        sizes = [curve.count for curve in self.session.document.curves]
         points = frozenset((curve, point) for curve, n in enumerate(sizes) for point in range(n))
         self.session.select(Selection(points, self.session.selection.curve))
 
@@ -190,7 +190,7 @@ class Canvas(Sheet):
     @guarded
     def focusNextPrevChild(self, forwards: bool) -> bool:
         # Tab walks the control points, and comes as a key; on an empty canvas it goes on.
-        if any(len(curve.points) for curve in self.session.document.curves):
+        if any(curve.count for curve in self.session.document.curves):
             return False
         return super().focusNextPrevChild(forwards)
 

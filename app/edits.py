@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,16 +31,17 @@ def moved(
     shift = np.asarray(delta_mm, dtype=np.float64)
     for index, members in by_curve(points).items():
         curve = document.curves[index]
-        places = np.clip(curve.points[members] + shift, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
+        places = np.clip(curve.places(members) + shift, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
         document = document.with_curve(index, curve.moved(members, places))
     return document
 
 
-def with_points(document: Document, index: int, points_mm: ArrayLike) -> Document:
-    """Document with other control points in one curve; at the admitted edge they stop."""
-    curve = document.curves[index]
-    places = np.clip(points_mm, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
-    return document.with_curve(index, replace(curve, points=places))
+def with_moved(
+    document: Document, index: int, points: ArrayLike, places_mm: ArrayLike
+) -> Document:
+    """Document with some points of one curve elsewhere; at the admitted edge they stop."""
+    places = np.clip(places_mm, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
+    return document.with_curve(index, document.curves[index].moved(points, places))
 
 
 def without_points(document: Document, points: Iterable[tuple[int, int]]) -> Document:
@@ -51,7 +51,7 @@ def without_points(document: Document, points: Iterable[tuple[int, int]]) -> Doc
     for index, members in grouped.items():
         curve = document.curves[index].without(members)
         document = document.with_curve(index, curve)
-        if not len(curve.points):
+        if not curve.count:
             emptied.add(index)
     return document.without_curves(emptied) if emptied else document
 

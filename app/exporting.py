@@ -257,7 +257,7 @@ def trial(document: Document, form: Format, tolerance_mm: float) -> ExportReport
     """
     from core.formats import survey
 
-    if not any(len(curve.points) for curve in document.curves):
+    if not any(curve.count for curve in document.curves):
         raise NinepointError("There is nothing to export yet: the drawing has no points.")
     return survey(document, f"drawing.{form.suffix}", tolerance_mm)
 

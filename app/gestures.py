@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 
 from app.camera import Camera
-from app.edits import by_curve, counted, moved, with_points
-from app.handles import CurveHit, PointHit, points_within
-from app.scene import NOTHING, Overlay, Scene
+from app.edits import by_curve, counted, moved, with_moved
+from app.handles import CurveHit, PointHit
+from app.scene import NOTHING, Influence, Overlay, Scene
 from app.session import Selection, Session
-from core.pull import control_weights, pulled
+from core.pull import control_weights, pull
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,8 +149,7 @@ class RubberBand(Gesture):
         stage = self._stage
         points = frozenset[tuple[int, int]]()
         if stage.show_polygon:
-            polygons = [drawn.points_px for drawn in stage.scene.curves]
-            points = points_within(polygons, self._start.pos_px, self._end)
+            points = stage.scene.points_within(self._start.pos_px, self._end)
         if self._start.shift:
             points |= self._before.points
         curves = {curve for curve, _ in points}
@@ -214,7 +213,7 @@ class MovePoints(_Edit):
         self._hit = hit
         self._start_mm = stage.camera.to_mm(pointer.pos_px)
         self._influences = tuple(
-            (curve, _ones(len(self._origin.curves[curve].points), members))
+            Influence(curve, np.array(members, dtype=np.intp), np.ones(len(members)))
             for curve, members in by_curve(self._points).items()
         )
 
@@ -243,11 +242,9 @@ class PullCurve(_Edit):
         self._hit = hit
         curve = self._origin.curves[hit.curve]
         self._curve, self._mask = curve, self._origin.parameters.mask
-        self._place_mm = curve.limit(self._origin.parameters).at(hit.t)
-        indices, weights = control_weights(len(curve.points), self._mask, curve.is_loop, hit.t)
-        shares = np.zeros(len(curve.points))
-        shares[indices] = weights / (weights @ weights)
-        self._influences = ((hit.curve, shares),)
+        indices, weights = control_weights(curve.count, self._mask, curve.is_loop, hit.t)
+        self._place_mm = weights @ curve.places(indices)
+        self._influences = (Influence(hit.curve, indices, weights / (weights @ weights)),)
 
     @property
     def overlay(self) -> Overlay:
@@ -259,8 +256,8 @@ class PullCurve(_Edit):
         self._way_mm = one_axis(way) if pointer.shift else way
         target = self._place_mm + self._way_mm
         curve = self._curve
-        points = pulled(curve.points, self._mask, curve.is_loop, self._hit.t, target)
-        self._session.adjust(with_points(self._origin, self._hit.curve, points))
+        indices, places = pull(curve.points, self._mask, curve.is_loop, self._hit.t, target)
+        self._session.adjust(with_moved(self._origin, self._hit.curve, indices, places))
 
 
 def one_axis(way: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -269,12 +266,6 @@ def one_axis(way: NDArray[np.float64]) -> NDArray[np.float64]:
     axis = int(abs(way[1]) > abs(way[0]))
     kept[axis] = way[axis]
     return kept
-
-
-def _ones(count: int, members: list[int]) -> NDArray[np.float64]:
-    weights = np.zeros(count)
-    weights[members] = 1.0
-    return weights
 
 
 def _points(count: int) -> str:

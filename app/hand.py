@@ -224,7 +224,7 @@ class Hand:
         """Select the next or the previous control point; after a curve's last the next curve's."""
         session = self._stage.session
         curves = session.document.curves
-        keys = [(c, p) for c, curve in enumerate(curves) for p in range(len(curve.points))]
+        keys = [(c, p) for c, curve in enumerate(curves) for p in range(curve.count)]
         if not keys or self._busy is not None:
             return
         self._nudging.settle()

@@ -104,8 +104,8 @@ def nearest_edge(
 def nearest_on_curve(
     curves_px: Sequence[NDArray[np.float64]],
     parameters: Sequence[NDArray[np.float64]],
-    spans: Sequence[int],
-    loops: Sequence[bool],
+    starts: Sequence[NDArray[np.intp]],
+    periods: Sequence[int],
     pos_px: NDArray[np.float64],
     radius_px: float,
     preferred: int = -1,
@@ -116,8 +116,10 @@ def nearest_on_curve(
     ----------
     curves_px, parameters
         Drawn vertices of each curve, shape (k, 2), and their t, shape (k,).
-    spans, loops
-        Number of spans of each curve, and whether it is closed.
+    starts
+        First vertex of each run of consecutive ones, and k.
+    periods
+        Number of spans of each closed curve, 0 of an open one.
     pos_px, radius_px, preferred
         As in `nearest_point`.
 
@@ -128,31 +130,16 @@ def nearest_on_curve(
     """
     best: CurveHit | None = None
     for curve in _order(len(curves_px), preferred):
-        found = _nearest_on(curves_px[curve], loops[curve], pos_px)
+        found = _nearest_on(curves_px[curve], False, pos_px, starts[curve][1:-1] - 1)
         if found is None or found[2] > radius_px:
             continue
         edge, share, distance = found
         if best is None or distance < best.distance_px:
-            t, total = parameters[curve], spans[curve]
-            after = float(t[edge + 1]) if edge + 1 < len(t) else float(total)
-            place = float(t[edge]) + share * (after - float(t[edge]))
-            dyadic = round(place * DYADIC) / DYADIC
-            best = CurveHit(curve, dyadic % total if loops[curve] else dyadic, distance)
+            before, after = parameters[curve][edge : edge + 2].tolist()
+            dyadic = round((before + share * (after - before)) * DYADIC) / DYADIC
+            period = periods[curve]
+            best = CurveHit(curve, dyadic % period if period else dyadic, distance)
     return best
-
-
-def points_within(
-    polygons_px: Sequence[NDArray[np.float64]],
-    corner_px: NDArray[np.float64],
-    opposite_px: NDArray[np.float64],
-) -> frozenset[tuple[int, int]]:
-    """Pairs (curve, point) of the control points in a rectangle given by two opposite corners."""
-    low, high = np.minimum(corner_px, opposite_px), np.maximum(corner_px, opposite_px)
-    return frozenset(
-        (curve, int(point))
-        for curve, points in enumerate(polygons_px)
-        for point in np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))
-    )
 
 
 def _order(count: int, preferred: int) -> list[int]:
@@ -165,9 +152,12 @@ def _order(count: int, preferred: int) -> list[int]:
 
 
 def _nearest_on(
-    vertices: NDArray[np.float64], closed: bool, pos: NDArray[np.float64]
+    vertices: NDArray[np.float64],
+    closed: bool,
+    pos: NDArray[np.float64],
+    gaps: NDArray[np.intp] | None = None,
 ) -> tuple[int, float, float] | None:
-    """Segment, share of it and distance of the place on a polyline that is nearest."""
+    """Segment, share of it and distance of the nearest place on a polyline, not in its gaps."""
     if len(vertices) < 2:
         return None
     ends = np.roll(vertices, -1, axis=0) if closed else vertices[1:]
@@ -181,5 +171,7 @@ def _nearest_on(
         share = np.clip(np.nan_to_num(share), 0.0, 1.0)
         squares = ((away - share[:, None] * way) ** 2).sum(axis=1)
     squares = np.nan_to_num(squares, nan=np.inf)
+    if gaps is not None:
+        squares[gaps] = np.inf
     index = int(squares.argmin())
     return index, float(share[index]), float(np.sqrt(squares[index]))

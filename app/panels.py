@@ -83,7 +83,7 @@ class CurvesPanel(QWidget):
     def _choose(self, row: int) -> None:
         if self._showing or row < 0:
             return
-        count = len(self._session.document.curves[row].points)
+        count = self._session.document.curves[row].count
         points = frozenset((row, point) for point in range(count))
         self._session.select(Selection(points, row))
 
@@ -159,7 +159,7 @@ class PointsModel(QAbstractTableModel):
         old, new = self._curve, self._present()
         if old is new:
             return
-        same_rows = old is not None and new is not None and len(old.points) == len(new.points)
+        same_rows = old is not None and new is not None and old.count == new.count
         if same_rows:
             self._curve = new
             last = self.index(self.rowCount() - 1, len(AXES) - 1)
@@ -172,7 +172,7 @@ class PointsModel(QAbstractTableModel):
     @guarded
     def rowCount(self, parent: Index = ROOT) -> int:
         """Number of control points."""
-        return 0 if self._curve is None or parent.isValid() else len(self._curve.points)
+        return 0 if self._curve is None or parent.isValid() else self._curve.count
 
     @guarded
     def columnCount(self, parent: Index = ROOT) -> int:
@@ -198,7 +198,7 @@ class PointsModel(QAbstractTableModel):
         """A coordinate: rounded for the eye, in full for editing."""
         if self._curve is None or not index.isValid():
             return None
-        value = float(self._curve.points[index.row(), index.column()])
+        value = float(self._curve.places([index.row()])[0, index.column()])
         if role == Qt.ItemDataRole.DisplayRole:
             return shown_length(value)
         if role == Qt.ItemDataRole.EditRole:
@@ -225,7 +225,7 @@ class PointsModel(QAbstractTableModel):
         if text == self.data(index, Qt.ItemDataRole.EditRole):
             return False
         try:
-            position = self._curve.points[row].copy()
+            position = self._curve.places([row])[0]
             position[axis] = float(typed_number(text, AXES[axis]))
             moved = self._curve.moved(row, position)
         except NinepointError as error:
@@ -322,12 +322,12 @@ def shown_length(value: float) -> str:
 
 
 def _labels(document: Document) -> list[tuple[str, bool, int]]:
-    return [(curve.name, curve.closed, len(curve.points)) for curve in document.curves]
+    return [(curve.name, curve.closed, curve.count) for curve in document.curves]
 
 
 def _described(curve: Curve) -> str:
     kind = "closed" if curve.closed else "open"
-    count = len(curve.points)
+    count = curve.count
     return f"{kind}, {count:,} point{'' if count == 1 else 's'}"
 
 

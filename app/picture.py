@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen, QPixmap
 
-from app.polyline import SAFE_PX, closed_up, point_of, polygon_of, stroke
-from app.scene import Drawn, Overlay, Scene
+from app.drawn import MOST_HANDLES, Drawn
+from app.polyline import SAFE_PX, point_of, polygon_of, stroke
+from app.scene import Overlay, Scene
 from app.style import SIZES, Palette, color
 
 HINT_POINTS: Final = 10.5
@@ -77,24 +78,23 @@ def paint_scene(
     for ribbon in scene.ribbons_px:
         _fill(painter, ribbon, palette)
     painter.setPen(pen(palette.ghost, SIZES.polygon_width, 0.8))
-    for ghost in scene.ghosts_px:
-        stroke(painter, ghost, view)
+    _stroke_all(painter, scene.ghosts_px, view)
     if with_polygon:
         painter.setPen(pen(palette.polygon, SIZES.polygon_width))
         for drawn in scene.curves:
-            stroke(painter, drawn.polygon_px, view)
+            _stroke_all(painter, drawn.polygons_px, view)
     order = [index for index in range(len(scene.curves)) if index != active]
     painter.setPen(pen(palette.curve, SIZES.calm_width))
     for index in order:
-        stroke(painter, scene.curves[index].outline_px, view)
+        _stroke_all(painter, scene.curves[index].outlines_px, view)
     painter.setPen(pen(palette.curve_active, SIZES.curve_width))
     if active < len(scene.curves):
-        stroke(painter, scene.curves[active].outline_px, view)
+        _stroke_all(painter, scene.curves[active].outlines_px, view)
     if scene.preview is not None:
         _paint_preview(painter, scene.preview, palette, view)
     if with_polygon:
         for index, drawn in enumerate(scene.curves):
-            _paint_points(painter, drawn.points_px, palette, view, calm=index != active)
+            _paint_points(painter, drawn.handles_px, palette, calm=index != active)
         _paint_selected(painter, scene, selected, palette, view)
     _paint_overlay(painter, scene, overlay, palette)
 
@@ -159,31 +159,29 @@ def _fill(painter: QPainter, outline: NDArray[np.float64], palette: Palette) -> 
 
 def _paint_preview(painter: QPainter, drawn: Drawn, palette: Palette, view: QRectF) -> None:
     painter.setPen(pen(palette.polygon, SIZES.polygon_width))
-    stroke(painter, drawn.polygon_px, view)
+    _stroke_all(painter, drawn.polygons_px, view)
     painter.setPen(pen(palette.curve_active, SIZES.curve_width))
-    stroke(painter, drawn.outline_px, view)
-    _paint_points(painter, drawn.points_px, palette, view, calm=False)
+    _stroke_all(painter, drawn.outlines_px, view)
+    _paint_points(painter, drawn.handles_px, palette, calm=False)
 
 
 def _paint_points(
     painter: QPainter,
     points: NDArray[np.float64],
     palette: Palette,
-    view: QRectF,
     calm: bool,
 ) -> None:
-    """Draw control points: as handles, or as dots where they are crowded."""
-    inside = _within(points, view)
+    """Draw control points in view: as handles, or as dots where they are crowded."""
     if is_crowd(points):
         dots = QPen(color(palette.polygon if calm else palette.point), 2 * SIZES.dot_radius)
         painter.setPen(dots)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        painter.drawPoints(polygon_of(_sparse(inside)))
+        painter.drawPoints(polygon_of(_sparse(points)))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         return
     rim = palette.polygon if calm else palette.point
     ratio = painter.device().devicePixelRatioF()
-    _stamp(painter, _handle(rim, palette.point_fill, SIZES.point_radius, ratio), inside)
+    _stamp(painter, _handle(rim, palette.point_fill, SIZES.point_radius, ratio), points)
 
 
 def _paint_selected(
@@ -193,14 +191,10 @@ def _paint_selected(
     palette: Palette,
     view: QRectF,
 ) -> None:
-    places = [
-        scene.curves[curve].points_px[point]
-        for curve, point in selected
-        if curve < len(scene.curves) and point < len(scene.curves[curve].points_px)
-    ]
+    places = [drawn.places_px(_seen(drawn, c, selected)) for c, drawn in enumerate(scene.curves)]
     if not places:
         return
-    points = _within(np.array(places), view)
+    points = _within(np.concatenate(places), view)
     ratio = painter.device().devicePixelRatioF()
     chosen = palette.point_selected
     _stamp(painter, _handle(chosen, chosen, SIZES.selected_radius, ratio), points)
@@ -210,9 +204,9 @@ def _paint_overlay(
     painter: QPainter, scene: Scene, overlay: Overlay, palette: Palette
 ) -> None:
     if overlay.hover is not None and overlay.hover.curve < len(scene.curves):
-        points = scene.curves[overlay.hover.curve].points_px
-        if overlay.hover.point < len(points):
-            _ring(painter, points[overlay.hover.point], palette)
+        drawn, point = scene.curves[overlay.hover.curve], overlay.hover.point
+        if point < drawn.curve.count:
+            _ring(painter, drawn.places_px(np.array([point]))[0], palette)
     if overlay.grip is not None and overlay.grip.curve < len(scene.curves):
         place = place_of(scene.curves[overlay.grip.curve], overlay.grip.t)
         if place is not None:
@@ -240,10 +234,25 @@ def place_of(drawn: Drawn, t: float) -> NDArray[np.float64] | None:
     """Pixels of a place on a drawn curve, linear between its vertices; None if it has none."""
     if not len(drawn.parameters):
         return None
-    vertices, parameters = drawn.vertices_px, drawn.parameters
-    if drawn.curve.is_loop and drawn.limit is not None:
-        vertices, parameters = closed_up(vertices), np.append(parameters, drawn.limit.spans)
-    return np.array([np.interp(t, parameters, vertices[:, axis]) for axis in (0, 1)])
+    places = drawn.vertices_px
+    return np.array([np.interp(t, drawn.parameters, places[:, axis]) for axis in (0, 1)])
+
+
+def _seen(drawn: Drawn, curve: int, selected: frozenset[tuple[int, int]]) -> NDArray[np.intp]:
+    """Selected points of a curve: all, or of very many those that are shown anyway."""
+    if len(selected) <= MOST_HANDLES:
+        chosen = [point for c, point in selected if c == curve and point < drawn.curve.count]
+    else:
+        shown = [] if drawn.shown is None else drawn.shown.tolist()
+        chosen = [point for point in shown if (curve, point) in selected]
+    return np.array(chosen, dtype=np.intp)
+
+
+def _stroke_all(
+    painter: QPainter, lines: Iterable[NDArray[np.float64]], view: QRectF
+) -> None:
+    for line in lines:
+        stroke(painter, line, view)
 
 
 def _ring(painter: QPainter, place: NDArray[np.float64], palette: Palette) -> None:

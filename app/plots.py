@@ -15,8 +15,8 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QFont, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
+from app.drawn import FINITE_LEVEL, grows
 from app.guard import guarded
-from app.scene import FINITE_LEVEL, grows
 from app.session import Session
 from app.style import Palette, color, palette_of
 from core.basis import BasicLimitFunction

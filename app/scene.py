@@ -1,44 +1,52 @@
 """What the canvas shows, in pixels, computed before painting and kept while nothing changed.
 
 A view of the document, the camera and what the hand is doing (`Overlay`). Curves are immutable, so
-their identity says whether a limit curve or its pixels can be used again.
+their identity says whether the figure of a curve or its pixels can be used again; a curve that
+differs from the one before by moved points is followed at the cost of the moves.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from app.camera import Camera
-from app.handles import CurveHit, PointHit
-from app.polyline import closed_up
+from app.drawn import Drawn, polylines, traced
+from app.figure import Figure, akin, differing
+from app.handles import CurveHit, PointHit, nearest_point
 from app.style import SIZES
-from core.detail import chord_profile, detailed, span_levels
 from core.document import Curve, Document
-from core.errors import NoLimitError
 from core.family import Parameters
-from core.limit import LimitCurve
-from core.mask import Mask
-
-TOLERANCE_PX: Final = 0.25
-"""Admitted distance between the curve and its drawn chords, in device pixels."""
-
-BUDGET: Final = 4000
-"""Number of chords of one curve that is not exceeded, unless it has more spans."""
+from core.view import BUDGET
 
 RIBBON_VERTICES: Final = 2048
 """Number of vertices along a ribbon of influence, about."""
+
+MOST_NEAR: Final = 20_000
+"""Number of control points around the mouse beyond which none of them can be meant."""
 
 FAINT: Final = 0.004
 """Share of the hand's move below which an influence is not drawn."""
 
 
-FINITE_LEVEL: Final = 2
-"""Dyadic level at which a curve is drawn that refinement does not bring to rest."""
+@dataclass(frozen=True, eq=False)
+class Influence:
+    """How control points follow the hand.
+
+    Attributes
+    ----------
+    curve
+        Index of the curve.
+    indices, shares
+        Its control points that move, and the share of the hand's move that each follows, (k,).
+    """
+
+    curve: int
+    indices: NDArray[np.intp]
+    shares: NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +62,7 @@ class Overlay:
     grip
         Place on a curve that a press would take, or that is held.
     influences
-        For curves being moved: index, and the share of the hand's move that each control point
-        follows, shape (n,).
+        For curves being moved.
     preview
         The curve being drawn, not yet in the document.
     """
@@ -63,7 +70,7 @@ class Overlay:
     rubber_band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
     hover: PointHit | None = None
     grip: CurveHit | None = None
-    influences: tuple[tuple[int, NDArray[np.float64]], ...] = ()
+    influences: tuple[Influence, ...] = ()
     preview: Curve | None = None
 
     def resembles(self, other: Overlay) -> bool:
@@ -81,38 +88,7 @@ class Overlay:
 NOTHING: Final = Overlay()
 """The overlay of an idle hand."""
 
-
-@dataclass(frozen=True, eq=False)
-class Drawn:
-    """A curve as it is drawn.
-
-    Attributes
-    ----------
-    curve
-        The curve of the document.
-    limit
-        Its limit curve; None when the scheme has none.
-    parameters, vertices_px
-        Places t and pixels of the drawn vertices, shapes (k,) and (k, 2).
-    points_px
-        Pixels of the control points, shape (n, 2).
-    """
-
-    curve: Curve
-    limit: LimitCurve | None
-    parameters: NDArray[np.float64]
-    vertices_px: NDArray[np.float64]
-    points_px: NDArray[np.float64]
-
-    @property
-    def outline_px(self) -> NDArray[np.float64]:
-        """The drawn vertices from end to end; a loop returns to its start."""
-        return closed_up(self.vertices_px) if self.curve.is_loop else self.vertices_px
-
-    @property
-    def polygon_px(self) -> NDArray[np.float64]:
-        """The control polygon from end to end; a loop returns to its start."""
-        return closed_up(self.points_px) if self.curve.is_loop else self.points_px
+_Ghost = tuple[NDArray[np.float64], ...]
 
 
 class Scene:
@@ -140,8 +116,10 @@ class Scene:
         self.has_limit = True
         self._camera = Camera()
         self._ratio = 1.0
-        self._kept: dict[tuple[int, int], tuple[Parameters, Drawn]] = {}
-        self._used: dict[tuple[int, int], tuple[Parameters, Drawn]] = {}
+        self._moved = False
+        self._kept: dict[tuple[int, int], Drawn] = {}
+        self._used: dict[tuple[int, int], Drawn] = {}
+        self._ghosts_kept: dict[int, tuple[Drawn, bytes, _Ghost]] = {}
 
     def update(
         self,
@@ -164,61 +142,78 @@ class Scene:
         overlay
             What the hand adds.
         """
-        moved = (camera, ratio) != (self._camera, self._ratio)
+        self._moved = (camera, ratio) != (self._camera, self._ratio)
         self._camera, self._ratio = camera, ratio
         self._used = {}
         parameters = document.parameters
-        self.curves = tuple(self._drawn(curve, parameters, moved) for curve in document.curves)
-        self.has_limit = all(drawn.limit is not None for drawn in self.curves)
-        self.ghosts_px = self._ghosts(document, origin, moved)
+        before = self.curves
+        self.curves = tuple(
+            self._drawn(curve, parameters, before[index] if index < len(before) else None)
+            for index, curve in enumerate(document.curves)
+        )
+        self.has_limit = all(drawn.figure.limit is not None for drawn in self.curves)
+        self.ghosts_px = self._ghosts(document, origin)
         self.ribbons_px = tuple(
             ribbon
-            for curve, weights in overlay.influences
-            if curve < len(self.curves)
-            for ribbon in self._ribbons(self.curves[curve], weights)
+            for influence in overlay.influences
+            if influence.curve < len(self.curves)
+            for ribbon in self._ribbons(self.curves[influence.curve], influence)
         )
-        self.preview = None
+        shown, self.preview = self.preview, None
         if overlay.preview is not None:
-            self.preview = self._drawn(overlay.preview, parameters, moved)
+            self.preview = self._drawn(overlay.preview, parameters, shown)
         self._kept = self._used
 
-    def _drawn(self, curve: Curve, parameters: Parameters, moved: bool) -> Drawn:
-        """Curve as drawn: as it was, or from its limit curve, or from its points."""
-        # The kept entry holds curve and parameters, so their identities cannot be taken over.
+    def nearest_point(
+        self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1
+    ) -> PointHit | None:
+        """Control point near the mouse, as `app.handles.nearest_point`, at any number of points."""
+        near = [
+            drawn.within(pos_px - radius_px, pos_px + radius_px, MOST_NEAR)
+            for drawn in self.curves
+        ]
+        indices = [np.zeros(0, dtype=np.intp) if found is None else found for found in near]
+        places = [
+            drawn.places_px(found) for drawn, found in zip(self.curves, indices, strict=True)
+        ]
+        hit = nearest_point(places, pos_px, radius_px, preferred)
+        return None if hit is None else replace(hit, point=int(indices[hit.curve][hit.point]))
+
+    def points_within(
+        self, corner_px: NDArray[np.float64], opposite_px: NDArray[np.float64]
+    ) -> frozenset[tuple[int, int]]:
+        """Pairs (curve, point) of the control points between two opposite corners."""
+        pairs = set[tuple[int, int]]()
+        for curve, drawn in enumerate(self.curves):
+            found = drawn.within(corner_px, opposite_px)
+            if found is not None:
+                pairs.update((curve, point) for point in found.tolist())
+        return frozenset(pairs)
+
+    def _drawn(self, curve: Curve, parameters: Parameters, before: Drawn | None) -> Drawn:
+        """Curve as drawn: as it was, or by moves from the one before, or from its points."""
+        # The kept figure holds curve and parameters, so their identities cannot be taken over.
         key = (id(curve), id(parameters))
-        kept = self._used.get(key) or self._kept.get(key)
-        if kept is None:
-            drawn = self._projected(curve, _limit(curve, parameters))
-        elif moved and key not in self._used:
-            drawn = self._projected(curve, kept[1].limit)
-        else:
-            drawn = kept[1]
-        self._used[key] = (parameters, drawn)
-        return drawn
+        known = self._used.get(key)
+        if known is None:
+            known = self._kept.get(key)
+            if known is None or self._moved:
+                figure = self._figure(curve, parameters, known or before)
+                known = traced(figure, self._camera, self._ratio)
+            self._used[key] = known
+        return known
 
-    def _projected(self, curve: Curve, limit: LimitCurve | None) -> Drawn:
-        camera = self._camera
-        if limit is None:
-            t, vertices = np.zeros(0), np.zeros((0, 2))
-        else:
-            if grows(limit.mask):
-                levels = np.full(limit.spans, FINITE_LEVEL)
-            else:
-                levels = self._levels(limit)
-            t, vertices = detailed(limit, levels)
-        points_px = camera.to_pixels(curve.points)
-        return Drawn(curve, limit, t, camera.to_pixels(vertices), points_px)
+    def _figure(self, curve: Curve, parameters: Parameters, before: Drawn | None) -> Figure:
+        """Figure of a curve: that of the curve before if it can follow, or a new one."""
+        if before is not None:
+            figure = before.figure
+            if figure.parameters is parameters and figure.follow(curve):
+                return figure
+        return Figure(curve, parameters)
 
-    def _levels(self, limit: LimitCurve) -> NDArray[np.intp]:
-        """Dyadic level of each span at which its chords look like the curve."""
-        camera = self._camera
-        tolerance = TOLERANCE_PX / self._ratio * camera.pixel_mm
-        return span_levels(limit, tolerance, BUDGET, camera.rectangle_mm())
-
-    def _ghosts(
-        self, document: Document, origin: Document, moved: bool
-    ) -> tuple[NDArray[np.float64], ...]:
+    def _ghosts(self, document: Document, origin: Document) -> _Ghost:
         """Outlines of the origin's curves where they differ from the present ones."""
+        kept, self._ghosts_kept = self._ghosts_kept, {}
         if origin is document:
             return ()
         recast = origin.parameters is not document.parameters
@@ -227,46 +222,49 @@ class Scene:
             now = self.curves[index] if index < len(self.curves) else None
             if now is not None and now.curve is curve and not recast:
                 continue
-            before = self._drawn(curve, origin.parameters, moved)
-            parts.extend(_differing(before, None if recast else now))
+            before = self._drawn(curve, origin.parameters, now)
+            changed = None
+            if now is not None and not recast and akin(curve, now.curve):
+                changed = differing(curve, now.curve)
+            sign = b"" if changed is None else changed.tobytes()
+            known = kept.get(index)
+            if known is None or known[0] is not before or known[1] != sign:
+                known = before, sign, _part(before, changed)
+            self._ghosts_kept[index] = known
+            parts.extend(known[2])
         return tuple(parts)
 
-    def _ribbons(
-        self, drawn: Drawn, weights: NDArray[np.float64]
-    ) -> list[NDArray[np.float64]]:
+    def _ribbons(self, drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
         """Outlines along a curve, as broad as the curve follows the hand."""
-        limit = drawn.limit
-        if limit is None or limit.spans == 0 or len(weights) != len(drawn.curve.points):
+        if drawn.limit is None:
             return []
-        pairs = np.stack([weights, np.zeros(len(weights))], axis=-1)
-        shares = LimitCurve(pairs, limit.mask, limit.closed)
-        reads = limit.mask.end - limit.mask.start + 1
-        strong = shares.endless_points[:, 0] != 0
-        touched = np.asarray(sliding_window_view(strong, reads)[: limit.spans].any(axis=1))
+        limit, indices = drawn.figure.limit, influence.indices
+        if limit is None or not limit.spans or not len(indices):
+            return []
+        if indices.max() >= drawn.curve.count:
+            return []
+        touched = _stretches(drawn.figure.touched(indices), limit.spans, limit.closed)
+        if sum(len(spans) for spans in touched) > BUDGET:
+            return []  # So much of the curve follows that a ribbon would only be a blot.
+        levels = [int(np.clip(np.log2(RIBBON_VERTICES / len(spans)), 0, 5)) for spans in touched]
+        pairs = list(zip(touched, levels, strict=True))
+        centres = [_joined(limit.span_points(*pair)) for pair in pairs]
+        # The curve is linear in its points: what a unit of the hand's way does is its share.
+        places = drawn.curve.places(indices)
+        limit.move(indices, places + influence.shares[:, None] * (1.0, 0.0))
+        shifted = [_joined(limit.span_points(*pair)) for pair in pairs]
+        limit.move(indices, places)
         ribbons: list[NDArray[np.float64]] = []
-        for spans in _stretches(touched, limit.closed):
-            level = int(np.clip(np.log2(RIBBON_VERTICES / len(spans)), 0, 5))
-            centre = self._camera.to_pixels(_joined(limit.span_points(spans, level)))
-            share = np.abs(_joined(shares.span_points(spans, level))[:, 0])
+        for centre, after in zip(centres, shifted, strict=True):
+            share = np.abs(after[:, 0] - centre[:, 0])
+            line = self._camera.to_pixels(centre)
+            strong = np.flatnonzero(share > FAINT)
             ribbons.extend(
-                _ribbon(centre[stretch], share[stretch])
-                for stretch in _stretches(share > FAINT, closed=False)
+                _ribbon(line[stretch], share[stretch])
+                for stretch in np.split(strong, np.flatnonzero(np.diff(strong) > 1) + 1)
                 if len(stretch) > 1
             )
         return ribbons
-
-
-def _limit(curve: Curve, parameters: Parameters) -> LimitCurve | None:
-    try:
-        return curve.limit(parameters)
-    except NoLimitError:
-        return None
-
-
-def grows(mask: Mask) -> bool:
-    """Whether finer chords miss the curve by more: there is nothing then that they converge to."""
-    errors = chord_profile(mask).sum(axis=1)
-    return bool(errors[-1] >= errors[-2] > 0)
 
 
 def _joined(spans: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -274,37 +272,45 @@ def _joined(spans: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([spans[:, :-1].reshape(-1, 2), spans[-1, -1:]])
 
 
-def _stretches(flags: NDArray[np.bool_], closed: bool) -> list[NDArray[np.intp]]:
-    """Find runs of consecutive indices whose flag is set; on a loop one may pass the seam."""
-    indices = np.flatnonzero(flags)
-    if not len(indices):
-        return []
-    parts = np.split(indices, np.flatnonzero(np.diff(indices) > 1) + 1)
-    if closed and len(parts) > 1 and flags[0] and flags[-1]:
+def _stretches(
+    ranges: tuple[range, ...], total: int, closed: bool
+) -> list[NDArray[np.intp]]:
+    """Spans of each range; on a loop, those on both sides of the seam are one stretch."""
+    parts = [np.arange(part.start, part.stop) for part in ranges]
+    if closed and len(parts) > 1 and ranges[0].start == 0 and ranges[-1].stop == total:
         parts[0] = np.concatenate([parts.pop(), parts[0]])
     return parts
 
 
-def _differing(before: Drawn, now: Drawn | None) -> list[NDArray[np.float64]]:
-    """Parts of an outline whose spans read other control points than now."""
-    limit = before.limit
-    if limit is None:
-        return []
-    same = now is not None and now.limit is not None and now.curve.is_loop == limit.closed
-    if not same or now is None or now.limit is None or now.limit.spans != limit.spans:
-        return [before.outline_px]
-    if not limit.spans:
-        return []
-    changed = np.asarray((limit.endless_points != now.limit.endless_points).any(axis=1))
-    reads = limit.mask.end - limit.mask.start + 1
-    touched = np.asarray(sliding_window_view(changed, reads)[: limit.spans].any(axis=1))
-    span = np.minimum(before.parameters.astype(np.intp), limit.spans - 1)
-    parts = []
-    for stretch in _stretches(touched[span], limit.closed):
-        # One vertex more: the end of the last chord.
-        after = (stretch[-1] + 1) % len(span) if limit.closed else stretch[-1]
-        parts.append(before.vertices_px[np.append(stretch, after)])
-    return parts
+def _part(before: Drawn, changed: NDArray[np.intp] | None) -> _Ghost:
+    """Parts of an outline that read some control points; without knowing which, all of it."""
+    if changed is None:
+        return before.outlines_px
+    if before.figure.limit is None:
+        return ()
+    t, vertices = before.parameters, before.vertices_px
+    times, places, starts = [], [], [0]
+    for spans in before.figure.touched(changed):
+        for first, after in zip(before.starts[:-1], before.starts[1:], strict=True):
+            own = t[first:after]
+            low, high = max(spans.start, own[0]), min(spans.stop, own[-1])
+            if low < high:
+                inner = own[(own > low) & (own < high)]
+                cut = np.concatenate([[low], inner, [high]])
+                times.append(cut)
+                places.append(_between(cut, own, vertices[first:after]))
+                starts.append(starts[-1] + len(cut))
+    if not times:
+        return ()
+    total = before.curve.count if before.curve.is_loop else None
+    return polylines(np.concatenate(places), np.concatenate(times), starts, total)
+
+
+def _between(
+    times: NDArray[np.float64], known: NDArray[np.float64], places: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Places on a polyline at some t, shape (k, 2)."""
+    return np.stack([np.interp(times, known, places[:, axis]) for axis in (0, 1)], axis=-1)
 
 
 def _ribbon(

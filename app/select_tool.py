@@ -12,7 +12,6 @@ from app.handles import (
     PointHit,
     nearest_edge,
     nearest_on_curve,
-    nearest_point,
 )
 from app.scene import NOTHING, Overlay
 from app.session import Selection
@@ -173,9 +172,8 @@ class SelectTool(DragTool):
         stage = self._stage
         if not stage.show_polygon:
             return None
-        polygons = [drawn.points_px for drawn in stage.scene.curves]
         active = stage.session.selection.curve
-        return nearest_point(polygons, pointer.pos_px, SIZES.hit_point, active)
+        return stage.scene.nearest_point(pointer.pos_px, SIZES.hit_point, active)
 
     def _hit_curve(self, pointer: Pointer) -> CurveHit | None:
         stage = self._stage
@@ -183,8 +181,8 @@ class SelectTool(DragTool):
         return nearest_on_curve(
             [drawn.vertices_px for drawn in curves],
             [drawn.parameters for drawn in curves],
-            [0 if drawn.limit is None else drawn.limit.spans for drawn in curves],
-            [drawn.curve.is_loop for drawn in curves],
+            [drawn.starts for drawn in curves],
+            [drawn.curve.count if drawn.curve.is_loop else 0 for drawn in curves],
             pointer.pos_px,
             SIZES.hit_curve,
             stage.session.selection.curve,
@@ -207,7 +205,7 @@ class SelectTool(DragTool):
         hit = self._hit_curve(pointer)
         if hit is None:
             return None
-        limit = curves[hit.curve].limit
-        last = 0 if limit is None else limit.spans - 1
-        span = min(int(hit.t), last)
+        curve = curves[hit.curve].curve
+        # The end of an open curve lies on its last edge.
+        span = min(int(hit.t), curve.count - (1 if curve.is_loop else 2))
         return EdgeHit(hit.curve, span, hit.t - span, hit.distance_px)

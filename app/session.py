@@ -27,7 +27,7 @@ class Selection:
 
     def within(self, document: Document) -> Selection:
         """The part of the selection that exists in a document."""
-        sizes = [len(curve.points) for curve in document.curves]
+        sizes = [curve.count for curve in document.curves]
         points = frozenset(
             (c, p) for c, p in self.points if c < len(sizes) and p < sizes[c]
         )

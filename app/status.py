@@ -151,10 +151,10 @@ def drawn_size(document: Document) -> tuple[float, float] | None:
     """Width and height in mm of the box around all limit curves, or None if nothing is drawn."""
     corners = []
     for curve in document.curves:
-        if not len(curve.points):
+        if not curve.count:
             continue
         level = SIZE_LEVEL
-        while level > 0 and len(curve.points) << level > SIZE_POINTS:
+        while level > 0 and curve.count << level > SIZE_POINTS:
             level -= 1
         try:
             points = curve.limit(document.parameters).points(level)

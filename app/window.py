@@ -182,7 +182,7 @@ class MainWindow(QMainWindow):
         current = self.current_curve
         if current is None:
             return
-        selection, last = self.session.selection, len(current.points) - 1
+        selection, last = self.session.selection, current.count - 1
         turned = replace(current, points=current.points[::-1])
         document = self.session.document.with_curve(selection.curve, turned)
         self.session.edit(document, "Reverse curve")

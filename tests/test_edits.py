@@ -7,9 +7,9 @@ from app.edits import (
     by_curve,
     counted,
     moved,
+    with_moved,
     with_new_curve,
     with_point_on_edge,
-    with_points,
     without_points,
 )
 from app.handles import EdgeHit
@@ -44,7 +44,7 @@ def test_curves_that_are_not_moved_are_shared(document):
 def test_points_stop_at_the_admitted_edge(document):
     after = moved(document, {(0, 1)}, (1e12, 0))
     assert after.curves[0].points[1, 0] == MAX_COORDINATE_MM
-    after = with_points(document, 1, [(1e300, -1e300)])
+    after = with_moved(document, 1, [0], [(1e300, -1e300)])
     np.testing.assert_array_equal(after.curves[1].points, [(MAX_COORDINATE_MM, -MAX_COORDINATE_MM)])
 
 

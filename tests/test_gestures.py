@@ -47,8 +47,10 @@ def test_a_pull_is_the_least_change_that_lands(canvas):
     change = after.points - curve.points
     # Least norm: parallel to the weights, hence all points move in the direction of the hand.
     np.testing.assert_allclose(change[:, 0] * way[1], change[:, 1] * way[0], atol=1e-9)
-    (_, shares), = gesture.overlay.influences
-    np.testing.assert_allclose(change, np.outer(shares, way), atol=1e-9)
+    (influence,) = gesture.overlay.influences
+    expected = np.zeros((len(change), 2))
+    expected[influence.indices] = np.outer(influence.shares, way)
+    np.testing.assert_allclose(change, expected, atol=1e-9)
     gesture.finish()
     assert canvas.session.undo_name == "Pull curve"
 

@@ -10,11 +10,11 @@ from app.handles import (
     nearest_edge,
     nearest_on_curve,
     nearest_point,
-    points_within,
 )
 
 SQUARE = np.array([(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)])
 FAR = SQUARE + 500.0
+ALL = np.array([0, 4])
 
 places = st.tuples(st.floats(-50, 150), st.floats(-50, 150)).map(np.array)
 
@@ -70,13 +70,13 @@ def test_edges_of_a_point_repeated_have_no_direction():
 @pytest.mark.parametrize("points", [np.zeros((0, 2)), np.zeros((1, 2))])
 def test_too_few_points_have_no_edge(points):
     assert nearest_edge([points], [False], np.zeros(2), 10) is None
-    assert nearest_on_curve([points], [np.zeros(len(points))], [0], [False], np.zeros(2), 9) is None
+    assert nearest_on_curve([points], [np.zeros(len(points))], [ALL], [0], np.zeros(2), 9) is None
 
 
 @given(places)
 def test_the_parameter_on_a_curve_is_linear_and_dyadic(pos):
-    t = np.array([0.0, 1.0, 2.0, 3.0])
-    hit = nearest_on_curve([SQUARE], [t], [4], [True], pos, 1e6)
+    t, loop = np.arange(5.0), np.concatenate([SQUARE, SQUARE[:1]])
+    hit = nearest_on_curve([loop], [t], [np.array([0, 5])], [4], pos, 1e6)
     assert hit.t * DYADIC == round(hit.t * DYADIC)
     assert 0 <= hit.t < 4
     edge, share = int(hit.t), hit.t % 1
@@ -87,7 +87,7 @@ def test_the_parameter_on_a_curve_is_linear_and_dyadic(pos):
 
 def test_the_end_of_an_open_curve_can_be_taken():
     t = np.array([0.0, 1.0, 2.0, 3.0])
-    hit = nearest_on_curve([SQUARE], [t], [3], [False], np.array([-2.0, 101.0]), 6)
+    hit = nearest_on_curve([SQUARE], [t], [ALL], [0], np.array([-2.0, 101.0]), 6)
     assert hit.t == 3.0
 
 
@@ -104,7 +104,8 @@ def test_absurd_pixels_do_no_harm():
     assert hit.edge == 2
 
 
-def test_points_within_a_rectangle_drawn_in_any_direction():
-    expected = {(0, 0), (0, 1)}
-    for corner, opposite in [((-5, -5), (105, 5)), ((105, 5), (-5, -5)), ((-5, 5), (105, -5))]:
-        assert points_within([SQUARE, FAR], np.array(corner), np.array(opposite)) == expected
+def test_a_gap_between_runs_of_a_curve_is_not_taken():
+    starts, t = np.array([0, 2, 4]), np.array([0.0, 1.0, 5.0, 6.0])
+    in_gap = np.array([102.0, 50.0])
+    assert nearest_on_curve([SQUARE], [t], [starts], [0], in_gap, 6) is None
+    assert nearest_on_curve([SQUARE], [t], [starts], [0], np.array([50.0, 98.0]), 6).t == 5.5

@@ -5,9 +5,9 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from app.drawn import FINITE_LEVEL
 from app.opening import ready_document
 from app.plots import LEVEL, WIDEST, BasisPlot, StepPlot
-from app.scene import FINITE_LEVEL
 from app.session import Session
 from app.style import DARK, LIGHT
 from app.theme import window_palette

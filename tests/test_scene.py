@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from app.camera import Camera
-from app.scene import BUDGET, FAINT, NOTHING, Overlay, Scene
+from app.scene import FAINT, NOTHING, Influence, Overlay, Scene
 from app.style import SIZES
 from core.document import Curve, Document
 from core.family import PRESETS, Parameters
+from core.view import BUDGET
 from mouse import BOAT, boat, by
 
 CAMERA = Camera(60, 30, 5.0, 900, 600)
@@ -17,6 +18,10 @@ def drawn(document, camera=CAMERA, origin=None, overlay=NOTHING, scene=None):
     scene = Scene() if scene is None else scene
     scene.update(document, document if origin is None else origin, camera, 1.0, overlay)
     return scene
+
+
+def following(*weights):
+    return Overlay(influences=(Influence(0, np.arange(len(weights)), np.array(weights)),))
 
 
 def away(polyline, places):
@@ -35,18 +40,19 @@ def test_the_drawn_curve_is_the_curve_to_a_quarter_pixel(member, scale, closed):
     document = Document((Curve(BOAT, closed),), PRESETS[member])
     middle = document.curves[0].limit(document.parameters).at(5.2)
     camera = Camera(*middle, scale, 900, 600)
-    outline = drawn(document, camera).curves[0].outline_px
+    outlines = drawn(document, camera).curves[0].outlines_px
     exact = camera.to_pixels(document.curves[0].limit(document.parameters).points(10))
     seen = ((exact >= 0) & (exact <= (900, 600))).all(axis=1)
     assert seen.sum() > 10
-    assert away(outline, exact[seen]).max() <= 0.25
+    found = [away(outline, exact[seen]) for outline in outlines]
+    assert np.min(found, axis=0).max() <= 0.25
 
 
 def test_what_is_out_of_view_costs_little():
     near = drawn(boat(), Camera(60, 30, 500.0, 900, 600)).curves[0]
     assert len(near.vertices_px) <= BUDGET
     elsewhere = drawn(boat(), Camera(1e6, 0, 500.0, 900, 600)).curves[0]
-    assert len(elsewhere.vertices_px) == 8
+    assert len(elsewhere.vertices_px) == 0
 
 
 def test_curves_that_did_not_change_are_drawn_again_as_they_are():
@@ -89,14 +95,13 @@ def test_the_ghost_of_other_parameters_is_the_whole_old_shape():
     origin = boat()
     scene = drawn(origin.with_parameters(PRESETS["Lagrange"]), CAMERA, origin)
     (ghost,) = scene.ghosts_px
-    np.testing.assert_array_equal(ghost, drawn(origin).curves[0].outline_px)
+    np.testing.assert_array_equal(ghost, *drawn(origin).curves[0].outlines_px)
 
 
 def test_the_ribbon_is_as_broad_as_the_curve_follows_the_hand():
     document = boat()
-    weights = np.zeros(8)
-    weights[2] = 1.0
-    scene = drawn(document, overlay=Overlay(influences=((0, weights),)))
+    alone = Overlay(influences=(Influence(0, np.array([2]), np.ones(1)),))
+    scene = drawn(document, overlay=alone)
     ribbon = np.concatenate(scene.ribbons_px)
     curve = document.curves[0]
     moved = document.with_curve(0, curve.moved([2], curve.points[2] + by(0.0, 1.0)))
@@ -108,33 +113,31 @@ def test_the_ribbon_is_as_broad_as_the_curve_follows_the_hand():
 
 
 def test_all_weights_1_give_a_ribbon_of_full_breadth_all_around():
-    scene = drawn(boat(), overlay=Overlay(influences=((0, np.ones(8)),)))
+    scene = drawn(boat(), overlay=following(*np.ones(8)))
     (ribbon,) = scene.ribbons_px
-    outline = drawn(boat()).curves[0].outline_px
+    (outline,) = drawn(boat()).curves[0].outlines_px
     assert away(outline, ribbon).min() == pytest.approx(SIZES.ribbon_width, abs=0.5)
 
 
 def test_a_weak_influence_is_not_drawn():
-    weights = np.zeros(8)
-    weights[0] = FAINT / 2
-    assert drawn(boat(), overlay=Overlay(influences=((0, weights),))).ribbons_px == ()
+    assert drawn(boat(), overlay=following(FAINT / 2, *np.zeros(7))).ribbons_px == ()
 
 
 @pytest.mark.parametrize("count", [0, 1, 2])
 @pytest.mark.parametrize("closed", [True, False])
 def test_few_points(count, closed):
     curve = Curve(BOAT[:count], closed)
-    scene = drawn(Document((curve,)), overlay=Overlay(influences=((0, np.ones(count)),)))
+    scene = drawn(Document((curve,)), overlay=following(*np.ones(count)))
     assert len(scene.curves[0].points_px) == count
     if count == 2:
-        outline = scene.curves[0].outline_px
+        (outline,) = scene.curves[0].outlines_px
         np.testing.assert_allclose(outline[[0, -1]], scene.curves[0].points_px)
 
 
 @pytest.mark.parametrize("neighbours", ["translated", "mirrored"])
 def test_absurd_parameters_stay_finite(neighbours):
     document = boat().with_parameters(Parameters(100, 100, 100, neighbours))
-    scene = drawn(document, origin=boat(), overlay=Overlay(influences=((0, np.ones(8)),)))
+    scene = drawn(document, origin=boat(), overlay=following(*np.ones(8)))
     for part in (scene.curves[0].vertices_px, *scene.ribbons_px, *scene.ghosts_px):
         assert np.isfinite(part).all()
     assert len(scene.curves[0].vertices_px) <= BUDGET
@@ -143,10 +146,10 @@ def test_absurd_parameters_stay_finite(neighbours):
 def test_a_scheme_without_limit_has_points_but_no_curve(monkeypatch):
     from core.errors import NoLimitError
 
-    def refuse(self, parameters):
+    def refuse(points, mask, closed):
         raise NoLimitError("no limit")
 
-    monkeypatch.setattr(Curve, "limit", refuse)
+    monkeypatch.setattr("app.figure.LiveCurve", refuse)
     scene = drawn(boat())
     assert not scene.has_limit
     assert len(scene.curves[0].vertices_px) == 0
@@ -157,3 +160,73 @@ def test_overlays_resemble_each_other_by_what_they_show():
     assert NOTHING.resembles(Overlay())
     assert not NOTHING.resembles(Overlay(preview=boat().curves[0]))
     assert not NOTHING.resembles(Overlay(rubber_band=(np.zeros(2), np.ones(2))))
+
+
+def test_points_within_a_rectangle_drawn_in_any_direction():
+    scene = drawn(boat())
+    low, high = scene.curves[0].points_px[[0, 3]]
+    expected = {
+        (0, k)
+        for k, place in enumerate(scene.curves[0].points_px)
+        if (place >= np.minimum(low, high)).all() and (place <= np.maximum(low, high)).all()
+    }
+    assert len(expected) >= 2
+    across = np.array([low[0], high[1]]), np.array([high[0], low[1]])
+    for corner, opposite in ((low, high), (high, low), across, across[::-1]):
+        assert scene.points_within(corner, opposite) == expected
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 8, 5000])
+def test_the_nearest_point_is_found_among_any_number(count):
+    rng = np.random.default_rng(count)
+    scene = drawn(Document((Curve(rng.uniform(0, 100, (count, 2))),)))
+    for place in rng.uniform(0, 900, (20, 2)):
+        distances = np.hypot(*(scene.curves[0].points_px - place).T)
+        hit = scene.nearest_point(place, 10.0)
+        if hit is None:
+            assert not (distances <= 10.0).any()
+        else:
+            assert distances[hit.point] == distances.min()
+
+
+def test_a_curve_that_follows_moves_is_drawn_as_if_built_anew():
+    rng = np.random.default_rng(7)
+    angle = np.linspace(0, 2 * np.pi, 20_000, endpoint=False)
+    curve = Curve(40 * np.stack([np.cos(angle), np.sin(angle)], axis=-1) + (60, 30))
+    origin = document = Document((curve,))
+    scene = drawn(document)
+    figure = scene.curves[0].figure
+    for _ in range(20):
+        indices = rng.integers(0, curve.count, 3)
+        curve = curve.moved(indices, rng.uniform(0, 90, (3, 2)))
+        document = Document((curve,), document.parameters)
+        camera = CAMERA.moved(float(rng.uniform(-9, 9)), 0.0)
+        drawn(document, camera, origin, scene=scene)
+        (now,) = scene.curves
+        assert now.figure is figure
+        (anew,) = drawn(document, camera).curves
+        np.testing.assert_array_equal(now.parameters, anew.parameters)
+        np.testing.assert_allclose(now.vertices_px, anew.vertices_px, atol=1e-9)
+        np.testing.assert_array_equal(now.limit.control_points, curve.points)
+    drawn(origin, scene=scene)
+    np.testing.assert_array_equal(scene.curves[0].vertices_px, drawn(origin).curves[0].vertices_px)
+
+
+def test_a_long_curve_has_few_vertices_at_any_zoom():
+    angle = np.linspace(0, 2 * np.pi, 100_000, endpoint=False)
+    radius = 40 + np.sin(9 * angle)
+    circle = radius[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    document = Document((Curve(circle),))
+    for scale in (0.1, 5.0, 500.0, 5e5):
+        (seen,) = drawn(document, Camera(40, 0, scale, 900, 600)).curves
+        assert len(seen.vertices_px) <= 2000
+        assert sum(len(line) for line in seen.polygons_px) <= 2000
+
+
+def test_a_ghost_over_the_seam_is_one_line():
+    angle = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    circle = Curve(50 * np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+    origin = Document((circle,))
+    now = origin.with_curve(0, circle.moved([0], (70, 0)))
+    (ghost,) = drawn(now, Camera(0, 0, 5.0, 900, 600), origin).ghosts_px
+    assert np.hypot(*np.diff(ghost, axis=0).T).max() < 50

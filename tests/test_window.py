@@ -20,10 +20,10 @@ from PySide6.QtWidgets import (
 from answers import Answers
 from app import analysis
 from app.dialogs import Answer, Dialogs
+from app.drawn import FINITE_LEVEL
 from app.failures import SENTENCE, Failures
 from app.launch import run
 from app.opening import READY_POINTS_MM
-from app.scene import FINITE_LEVEL
 from app.session import Selection
 from app.settings import Settings
 from app.style import DARK, LIGHT, palette_of
@@ -453,7 +453,7 @@ def test_a_divergent_scheme_is_drawn_without_overflow(qtbot, window, parameters)
     known(qtbot, window)
     (drawn,) = window.canvas.scene.curves
     assert np.isfinite(drawn.vertices_px).all()
-    assert len(drawn.vertices_px) == 8 * 2**FINITE_LEVEL
+    assert len(drawn.vertices_px) == 8 * 2**FINITE_LEVEL + 1
     assert window.docks.step_plot.sentence == "overshoot and undershoot: no bound proven"
     colours = palette_of(window)
     content = window.canvas.grab().toImage()
