@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -18,7 +16,6 @@ from core.document import Curve
 from core.limit import LimitCurve
 from core.mask import Mask
 from core.picking import points_within
-from core.pyramid import Pyramid
 from core.runs import Runs
 from core.view import BUDGET, view
 
@@ -33,6 +30,11 @@ MOST_HANDLES: Final = 2000
 
 REACH_PX: Final = 12.0
 """How far around the canvas curves and points are drawn: what their pens and handles cover."""
+
+SPLICED_FROM: Final = 72
+"""Number of spans from which moves of a point are drawn by `app.splice`: four times its reach."""
+
+_NOTHING: Final = Runs(np.zeros((0, 2)), np.zeros(0), np.zeros(1, dtype=np.intp), 0.0)
 
 _NO_INDICES: Final = np.zeros(0, dtype=np.intp)
 
@@ -49,24 +51,52 @@ class Drawn:
         What it is drawn from; it may stand for another curve meanwhile, `limit` calls it back.
     camera
         The view.
-    parameters, vertices_px, starts
-        Places t and pixels of the drawn vertices, shapes (k,) and (k, 2); the first vertex of each
-        run of consecutive ones, and k. A loop that is seen whole ends where it starts.
-    outlines_px, polygons_px
-        The parts of limit curve and control polygon that are seen, polylines.
+    outline, polygon
+        Vertices of limit curve and control polygon, in pixels; a loop that is seen whole ends where
+        it starts.
     shown
         Indices of the control points in view, shape (h,); None if there are too many to be shown.
+    base
+        What this one was made from by a few moves; None if it was made from the levels of detail.
     """
 
     curve: Curve
     figure: Figure
     camera: Camera
-    parameters: NDArray[np.float64]
-    vertices_px: NDArray[np.float64]
-    starts: NDArray[np.intp]
-    outlines_px: tuple[NDArray[np.float64], ...]
-    polygons_px: tuple[NDArray[np.float64], ...]
+    outline: Runs
+    polygon: Runs
     shown: NDArray[np.intp] | None
+    base: Drawn | None = None
+
+    @property
+    def parameters(self) -> NDArray[np.float64]:
+        """Places t of the drawn vertices, shape (k,)."""
+        return self.outline.parameters
+
+    @property
+    def vertices_px(self) -> NDArray[np.float64]:
+        """The drawn vertices of the limit curve, shape (k, 2)."""
+        return self.outline.vertices
+
+    @property
+    def starts(self) -> NDArray[np.intp]:
+        """First vertex of each run of consecutive ones, and k."""
+        return self.outline.starts
+
+    @property
+    def period(self) -> int:
+        """Number of spans of a loop; 0 of an open curve."""
+        return self.curve.count if self.curve.is_loop else 0
+
+    @cached_property
+    def outlines_px(self) -> tuple[NDArray[np.float64], ...]:
+        """The parts of the limit curve that are seen, polylines."""
+        return polylines(self.outline, self.period)
+
+    @cached_property
+    def polygons_px(self) -> tuple[NDArray[np.float64], ...]:
+        """The parts of the control polygon that are seen, polylines."""
+        return polylines(self.polygon, self.period)
 
     @property
     def limit(self) -> LimitCurve | None:
@@ -113,51 +143,43 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
         Device pixels per logical pixel.
     """
     tolerance = TOLERANCE_PX / ratio * camera.pixel_mm
-    low, high = camera.rectangle_mm()
-    reach = REACH_PX * camera.pixel_mm
-    low, high = low - reach, high + reach
+    limit = figure.limit
+    if limit is not None and limit.spans >= SPLICED_FROM:
+        # Where a chord is cut, both halves of the tolerance may be needed.
+        tolerance /= 2
+    low, high = seen_mm(camera)
     centre = np.array([camera.x_mm, camera.y_mm])
-
-    def seen(pyramid: Pyramid | None) -> Runs:
-        if pyramid is None:
-            return Runs(np.zeros((0, 2)), np.zeros(0), np.zeros(1, dtype=np.intp), 0.0)
-        return view(pyramid, low, high, tolerance, centre)
-
-    limit, loop = figure.limit, figure.curve.is_loop
-    if figure.outline is None and limit is not None and limit.spans:
+    if limit is None or not limit.spans:
+        outline = _NOTHING
+    elif figure.outline is None:
         outline = _unproven(limit, tolerance, camera)
     else:
-        outline = seen(figure.outline)
-    polygon = seen(figure.polygon)
-    shift = camera.width / 2, camera.height / 2
-    flip = camera.scale, -camera.scale
-    total = figure.curve.count if loop else None
-    vertices = outline.vertices * flip + shift
-    corners = polygon.vertices * flip + shift
+        outline = view(figure.outline, low, high, tolerance, centre)
+    polygon = _NOTHING
+    if figure.polygon is not None:
+        polygon = view(figure.polygon, low, high, tolerance, centre)
+    flip, shift = (camera.scale, -camera.scale), (camera.width / 2, camera.height / 2)
     return Drawn(
         figure.curve,
         figure,
         camera,
-        outline.parameters,
-        vertices,
-        outline.starts,
-        polylines(vertices, outline.parameters, outline.starts, total),
-        polylines(corners, polygon.parameters, polygon.starts, total),
+        replace(outline, vertices=outline.vertices * flip + shift),
+        replace(polygon, vertices=polygon.vertices * flip + shift),
         _within(figure, low, high, MOST_HANDLES),
     )
 
 
-def polylines(
-    vertices: NDArray[np.float64],
-    parameters: NDArray[np.float64],
-    starts: Iterable[int],
-    total: int | None,
-) -> tuple[NDArray[np.float64], ...]:
-    """Runs of vertices as polylines; on a loop of ``total`` spans they go on over the seam."""
-    bounds = [int(start) for start in starts]
-    pairs = list(pairwise(bounds))
-    parts = [vertices[first:after] for first, after in pairs]
-    if total is None or not parts or parameters[0] != 0 or parameters[-1] != total:
+def seen_mm(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Corners of what is drawn: the canvas and what reaches into it."""
+    low, high = camera.rectangle_mm()
+    reach = REACH_PX * camera.pixel_mm
+    return low - reach, high + reach
+
+
+def polylines(runs: Runs, period: int) -> tuple[NDArray[np.float64], ...]:
+    """Runs of vertices as polylines; on a loop of ``period`` spans they go on over the seam."""
+    parts, t = list(runs.runs()), runs.parameters
+    if not period or not parts or t[0] != 0 or t[-1] != period:
         return tuple(parts)
     if len(parts) == 1:
         # The ends agree up to rounding; the pen shall meet itself without a cap.

@@ -13,6 +13,8 @@ from core.family import Parameters
 from core.live import LiveCurve
 from core.pyramid import CurvePyramid, PolygonPyramid
 
+_NONE: Final = np.zeros(0, dtype=np.intp)
+
 COMPARED: Final = 4096
 """Number of points up to which two curves of unknown kinship are compared point by point."""
 
@@ -31,29 +33,48 @@ class Figure:
         The curve that it stands for now.
     limit
         Its limit curve; None when the scheme has none.
-    outline
-        The levels of detail of the limit curve; None where there is no span, or no proven bound.
-    polygon
-        Those of the control polygon; None with fewer than two points.
+
+    Notes
+    -----
+    The levels of detail are brought up to date when they are asked for: while a few points are
+    dragged they are not (`app.splice`).
     """
 
     def __init__(self, curve: Curve, parameters: Parameters) -> None:
         self.curve = curve
         self.parameters = parameters
         self.limit: LiveCurve | None = None
-        self.outline: CurvePyramid | None = None
-        self.polygon: PolygonPyramid | None = None
+        self._outline: CurvePyramid | None = None
+        self._polygon: PolygonPyramid | None = None
+        self._pending = _NONE
         points = curve.points
         try:
             self.limit = LiveCurve(points, parameters.mask, curve.is_loop)
             points = self.limit.control_points
             if self.limit.spans:
-                self.outline = CurvePyramid(self.limit)
+                self._outline = CurvePyramid(self.limit)
         except NoLimitError:
             # What is not proven is drawn as far as it is there.
             pass
         if len(points) > 1:
-            self.polygon = PolygonPyramid(points, curve.is_loop)
+            self._polygon = PolygonPyramid(points, curve.is_loop)
+
+    @property
+    def outline(self) -> CurvePyramid | None:
+        """Levels of detail of the limit curve; None without a span, or without a proven bound."""
+        self._settle()
+        return self._outline
+
+    @property
+    def polygon(self) -> PolygonPyramid | None:
+        """Levels of detail of the control polygon; None with fewer than two points."""
+        self._settle()
+        return self._polygon
+
+    @property
+    def is_proven(self) -> bool:
+        """Whether the limit curve has levels of detail."""
+        return self._outline is not None
 
     def follow(self, curve: Curve) -> bool:
         """Stand for another curve that differs by moved points; the cost is that of the moves.
@@ -70,7 +91,8 @@ class Figure:
         changed = differing(self.curve, curve)
         if changed is None:
             return False
-        self._move(changed, curve.places(changed))
+        self.limit.move(changed, curve.places(changed))
+        self._pending = np.union1d(self._pending, changed)
         self.curve = curve
         return True
 
@@ -81,14 +103,19 @@ class Figure:
         # A move to where they are changes nothing.
         return self.limit.move(indices, self.curve.places(indices))
 
-    def _move(self, indices: NDArray[np.intp], places: NDArray[np.float64]) -> None:
-        if self.limit is None:
+    def edges_at(self, indices: NDArray[np.intp]) -> tuple[range, ...]:
+        """Edges of the polygon that end in some control points."""
+        return () if self._polygon is None else self._polygon.edges_at(indices)
+
+    def _settle(self) -> None:
+        """Bring the levels of detail up to date."""
+        pending, self._pending = self._pending, _NONE
+        if not len(pending):
             return
-        spans = self.limit.move(indices, places)
-        if self.outline is not None:
-            self.outline.update(spans)
-        if self.polygon is not None:
-            self.polygon.update(self.polygon.edges_at(indices))
+        if self._outline is not None:
+            self._outline.update(self.touched(pending))
+        if self._polygon is not None:
+            self._polygon.update(self.edges_at(pending))
 
 
 def akin(curve: Curve, other: Curve) -> bool:

@@ -17,9 +17,11 @@ from app.camera import Camera
 from app.drawn import Drawn, polylines, traced
 from app.figure import Figure, akin, differing
 from app.handles import CurveHit, PointHit, nearest_point
+from app.splice import spliced
 from app.style import SIZES
 from core.document import Curve, Document
 from core.family import Parameters
+from core.runs import Runs
 from core.view import BUDGET
 
 RIBBON_VERTICES: Final = 2048
@@ -198,18 +200,22 @@ class Scene:
         if known is None:
             known = self._kept.get(key)
             if known is None or self._moved:
-                figure = self._figure(curve, parameters, known or before)
-                known = traced(figure, self._camera, self._ratio)
+                known = self._traced(curve, parameters, known or before)
             self._used[key] = known
         return known
 
-    def _figure(self, curve: Curve, parameters: Parameters, before: Drawn | None) -> Figure:
-        """Figure of a curve: that of the curve before if it can follow, or a new one."""
-        if before is not None:
-            figure = before.figure
-            if figure.parameters is parameters and figure.follow(curve):
-                return figure
-        return Figure(curve, parameters)
+    def _traced(self, curve: Curve, parameters: Parameters, before: Drawn | None) -> Drawn:
+        """Draw a curve by the figure of the one before, if it can follow, or by a new one."""
+        figure = None
+        if before is not None and before.figure.parameters is parameters:
+            figure = before.figure if before.figure.follow(curve) else None
+        if figure is None:
+            figure = Figure(curve, parameters)
+        elif before is not None and not self._moved:
+            drawn = spliced(before.base or before, self._ratio)
+            if drawn is not None:
+                return drawn
+        return traced(figure, self._camera, self._ratio)
 
     def _ghosts(self, document: Document, origin: Document) -> _Ghost:
         """Outlines of the origin's curves where they differ from the present ones."""
@@ -296,14 +302,14 @@ def _part(before: Drawn, changed: NDArray[np.intp] | None) -> _Ghost:
             low, high = max(spans.start, own[0]), min(spans.stop, own[-1])
             if low < high:
                 inner = own[(own > low) & (own < high)]
-                cut = np.concatenate([[low], inner, [high]])
-                times.append(cut)
-                places.append(_between(cut, own, vertices[first:after]))
-                starts.append(starts[-1] + len(cut))
+                chosen = np.concatenate([[low], inner, [high]])
+                times.append(chosen)
+                places.append(_between(chosen, own, vertices[first:after]))
+                starts.append(starts[-1] + len(chosen))
     if not times:
         return ()
-    total = before.curve.count if before.curve.is_loop else None
-    return polylines(np.concatenate(places), np.concatenate(times), starts, total)
+    cut = Runs(np.concatenate(places), np.concatenate(times), np.array(starts), 0.0)
+    return polylines(cut, before.period)
 
 
 def _between(

@@ -182,7 +182,7 @@ class SelectTool(DragTool):
             [drawn.vertices_px for drawn in curves],
             [drawn.parameters for drawn in curves],
             [drawn.starts for drawn in curves],
-            [drawn.curve.count if drawn.curve.is_loop else 0 for drawn in curves],
+            [drawn.period for drawn in curves],
             pointer.pos_px,
             SIZES.hit_curve,
             stage.session.selection.curve,

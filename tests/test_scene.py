@@ -230,3 +230,37 @@ def test_a_ghost_over_the_seam_is_one_line():
     now = origin.with_curve(0, circle.moved([0], (70, 0)))
     (ghost,) = drawn(now, Camera(0, 0, 5.0, 900, 600), origin).ghosts_px
     assert np.hypot(*np.diff(ghost, axis=0).T).max() < 50
+
+
+def test_moves_drawn_by_splices_are_the_curve_to_a_quarter_pixel():
+    rng = np.random.default_rng(3)
+    for closed in (True, False):
+        for member in ("Calm", "Tight", "Lean"):
+            angle = np.linspace(0, 6, 120)
+            curve = Curve(40 * np.stack([np.cos(angle), np.sin(angle)], axis=-1), closed)
+            document = Document((curve,), PRESETS[member])
+            camera = Camera(20, 10, 9.0, 900, 600)
+            scene = drawn(document, camera)
+            splices = 0
+            for index in (60, 61, 0, 119, 5, 60):
+                curve = curve.moved([index], rng.uniform(-40, 40, 2))
+                document = Document((curve,), document.parameters)
+                drawn(document, camera, scene=scene)
+                (now,) = scene.curves
+                splices += now.base is not None
+                limit = curve.limit(document.parameters)
+                exact = camera.to_pixels(limit.points(6))
+                seen = ((exact >= 0) & (exact <= (900, 600))).all(axis=1)
+                found = [away(line, exact[seen]) for line in now.outlines_px]
+                assert np.min(found, axis=0).max() <= 0.25
+                back = [away(exact, line[::7]) for line in now.outlines_px]
+                assert np.concatenate(back).max() <= 1.0
+                polygon = camera.to_pixels(curve.points)
+                seen = ((polygon >= 0) & (polygon <= (900, 600))).all(axis=1)
+                found = [away(line, polygon[seen]) for line in now.polygons_px]
+                assert np.min(found, axis=0).max() <= 0.25
+                np.testing.assert_array_equal(
+                    now.shown, drawn(document, camera).curves[0].shown
+                )
+                assert (np.diff(now.parameters) >= 0).all()
+            assert splices >= 2
