@@ -37,9 +37,10 @@ come down to the share that was asked for at `FINEST_LEVEL`."""
 BLOCK: Final = 2**16
 """Number of samples held at a time, unless one span has more: they fit the processor's cache."""
 
-_PLENTY: Final = 2**15
-"""Number of samples up to which a curve is sampled finer than the proof needs: it costs nothing
-that a hand could feel, and cuts can lie closer to where they are best."""
+_FINER: Final = (2**18, 2**18, *[2**15] * FINEST_LEVEL)
+"""Numbers of samples up to which a curve is sampled finer than the proof needs, by one level, by
+two, and so on: it costs nothing that a hand could feel, and cuts can lie closer to where they are
+best."""
 
 _UNEVEN: Final = 1.5
 """Samples that a block may take more, as a factor, to have one level for all of its spans."""
@@ -190,12 +191,11 @@ def _levels(
             " choose a larger tolerance, or parameters closer to a preset."
         )
     bent = largest * max(factors) > rounding
-    while (
-        bent.any()
-        and (1 << (levels + bent)).sum() <= _PLENTY
-        and (levels + bent).max() <= FINEST_LEVEL
-    ):
-        levels += bent
+    for plenty in _FINER:
+        finer = levels + bent
+        if finer.max() > FINEST_LEVEL or (1 << finer).sum() > plenty:
+            break
+        levels = finer
     return levels, np.array(factors)[levels] * largest + rounding
 
 
