@@ -28,6 +28,9 @@ FINITE_LEVEL: Final = 2
 MOST_HANDLES: Final = 2000
 """Number of control points in view beyond which they are not shown: they would be a blot."""
 
+LEAST_SPACING_PX: Final = 4.0
+"""Mean distance of neighbours below which control points are not shown: their dots would meet."""
+
 REACH_PX: Final = 12.0
 """How far around the canvas curves and points are drawn: what their pens and handles cover."""
 
@@ -55,7 +58,8 @@ class Drawn:
         Vertices of limit curve and control polygon, in pixels; a loop that is seen whole ends where
         it starts.
     shown
-        Indices of the control points in view, shape (h,); None if there are too many to be shown.
+        Indices of the control points in view, shape (h,); None if they are too many, or too close
+        together, to be shown.
     base
         What this one was made from by a few moves; None if it was made from the levels of detail.
     """
@@ -165,7 +169,7 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
         camera,
         replace(outline, vertices=outline.vertices * flip + shift),
         replace(polygon, vertices=polygon.vertices * flip + shift),
-        _within(figure, low, high, MOST_HANDLES),
+        _shown(figure, camera),
     )
 
 
@@ -204,6 +208,15 @@ def _unproven(limit: LimitCurve, tolerance: float, camera: Camera) -> Runs:
         t, vertices = np.append(t, limit.spans), np.concatenate([vertices, vertices[:1]])
     starts = np.array([0, len(t)])
     return Runs(vertices - (camera.x_mm, camera.y_mm), t, starts, np.inf)
+
+
+def _shown(figure: Figure, camera: Camera) -> NDArray[np.intp] | None:
+    """Control points in view, unless their signs would only cover the curve."""
+    found = _within(figure, *seen_mm(camera), MOST_HANDLES)
+    if found is None or len(found) < 3:
+        return found
+    ways = np.diff(figure.curve.places(found), axis=0) * camera.scale
+    return None if float(np.hypot(*ways.T).mean()) < LEAST_SPACING_PX else found
 
 
 def _within(

@@ -49,6 +49,19 @@ MAX_SYNCHRONISED: Final = 2_000
 
 Index = QModelIndex | QPersistentModelIndex
 
+TOLD_ROWS: Final = 64
+"""Number of changed rows up to which each is told to the table by itself."""
+
+RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+"""Where a coordinate stands in its cell."""
+
+TELLING: Final = (
+    Qt.ItemDataRole.DisplayRole,
+    Qt.ItemDataRole.EditRole,
+    Qt.ItemDataRole.AccessibleTextRole,
+)
+"""What a cell is asked for that its coordinate answers."""
+
 ROOT: Final = QModelIndex()
 """What a table has as the parent of all of its cells."""
 
@@ -159,15 +172,23 @@ class PointsModel(QAbstractTableModel):
         old, new = self._curve, self._present()
         if old is new:
             return
-        same_rows = old is not None and new is not None and old.count == new.count
-        if same_rows:
+        if old is not None and new is not None and old.count == new.count:
             self._curve = new
-            last = self.index(self.rowCount() - 1, len(AXES) - 1)
-            self.dataChanged.emit(self.index(0, 0), last)
+            self._tell_changes(old, new)
         else:
             self.beginResetModel()
             self._curve = new
             self.endResetModel()
+
+    def _tell_changes(self, old: Curve, new: Curve) -> None:
+        """Have the rows that changed shown anew: the table asks only for those in view."""
+        changed = old.differences(new)
+        if changed is None or len(changed) > TOLD_ROWS:
+            rows = [(0, self.rowCount() - 1)]
+        else:
+            rows = [(row, row) for row in changed.tolist()]
+        for first, last in rows:
+            self.dataChanged.emit(self.index(first, 0), self.index(last, len(AXES) - 1))
 
     @guarded
     def rowCount(self, parent: Index = ROOT) -> int:
@@ -198,13 +219,15 @@ class PointsModel(QAbstractTableModel):
         """A coordinate: rounded for the eye, in full for editing."""
         if self._curve is None or not index.isValid():
             return None
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return RIGHT
+        if role not in TELLING:
+            return None
         value = float(self._curve.places([index.row()])[0, index.column()])
         if role == Qt.ItemDataRole.DisplayRole:
             return shown_length(value)
         if role == Qt.ItemDataRole.EditRole:
             return f"{value:.12g}"
-        if role == Qt.ItemDataRole.TextAlignmentRole:
-            return Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         if role == Qt.ItemDataRole.AccessibleTextRole:
             axis = AXES[index.column()]
             return f"Point {index.row() + 1}, {axis} {shown_length(value)} millimetres"

@@ -28,6 +28,9 @@ HINT_RISE_PX: Final = 20.0
 HINT_ROOM_PX: Final = 28.0
 """Room to leave free below a drawing, besides its margin, while there are words."""
 
+CROWD: Final = 500
+"""Number of control points in view beyond which they are drawn as dots, all at once."""
+
 _RING_GAP: Final = 3.5
 """Radius of the hover ring beyond that of the point, in pixels."""
 
@@ -224,9 +227,11 @@ def _paint_overlay(
 
 
 def is_crowd(points_px: NDArray[np.float64]) -> bool:
-    """Whether control points lie so close together that handles would hide the drawing."""
+    """Whether control points are so many, or so close, that handles would hide the drawing."""
     if len(points_px) < 3:
         return False
+    if len(points_px) > CROWD:
+        return True
     return float(np.hypot(*np.diff(points_px, axis=0).T).mean()) < SIZES.crowd_spacing
 
 

@@ -30,6 +30,9 @@ RIBBON_VERTICES: Final = 2048
 MOST_NEAR: Final = 20_000
 """Number of control points around the mouse beyond which none of them can be meant."""
 
+RIBBON_STEP_PX: Final = 6.0
+"""Length of the chords of a ribbon, about."""
+
 FAINT: Final = 0.004
 """Share of the hand's move below which an influence is not drawn."""
 
@@ -166,10 +169,25 @@ class Scene:
             self.preview = self._drawn(overlay.preview, parameters, shown)
         self._kept = self._used
 
+    @property
+    def hidden(self) -> int:
+        """Number of control points of the curves whose points lie too close to be shown."""
+        return sum(drawn.curve.count for drawn in self.curves if drawn.shown is None)
+
     def nearest_point(
         self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1
     ) -> PointHit | None:
         """Control point near the mouse, as `app.handles.nearest_point`, at any number of points."""
+        # Among many points the nearest is mostly very near, and the others are not looked at.
+        for radius in (radius_px / 8, radius_px):
+            hit = self._nearest_point(pos_px, radius, preferred)
+            if hit is not None:
+                return hit
+        return None
+
+    def _nearest_point(
+        self, pos_px: NDArray[np.float64], radius_px: float, preferred: int
+    ) -> PointHit | None:
         near = [
             drawn.within(pos_px - radius_px, pos_px + radius_px, MOST_NEAR)
             for drawn in self.curves
@@ -252,8 +270,7 @@ class Scene:
         touched = _stretches(drawn.figure.touched(indices), limit.spans, limit.closed)
         if sum(len(spans) for spans in touched) > BUDGET:
             return []  # So much of the curve follows that a ribbon would only be a blot.
-        levels = [int(np.clip(np.log2(RIBBON_VERTICES / len(spans)), 0, 5)) for spans in touched]
-        pairs = list(zip(touched, levels, strict=True))
+        pairs = [(spans, self._ribbon_level(limit.span_points(spans, 0))) for spans in touched]
         centres = [_joined(limit.span_points(*pair)) for pair in pairs]
         # The curve is linear in its points: what a unit of the hand's way does is its share.
         places = drawn.curve.places(indices)
@@ -271,6 +288,13 @@ class Scene:
                 if len(stretch) > 1
             )
         return ribbons
+
+    def _ribbon_level(self, ends: NDArray[np.float64]) -> int:
+        """Dyadic level at which the chords of spans, whose ends are (k, 2, 2), are short enough."""
+        longest = float(np.hypot(*(ends[:, 1] - ends[:, 0]).T).max()) * self._camera.scale
+        wanted = np.ceil(np.log2(max(longest / RIBBON_STEP_PX, 1.0)))
+        admitted = np.log2(RIBBON_VERTICES / len(ends))
+        return int(np.clip(min(wanted, admitted), 0, 5))
 
 
 def _joined(spans: NDArray[np.float64]) -> NDArray[np.float64]:

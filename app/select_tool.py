@@ -66,6 +66,9 @@ class SelectTool(DragTool):
             return (
                 f"Arrows move by 1 mm, with Shift 10, with Alt 0.1{DOT}Del deletes{DOT}Esc clears"
             )
+        hidden = self._stage.scene.hidden if self._stage.show_polygon else 0
+        if hidden:
+            return f"{hidden:,} points lie too close to be shown{DOT}zoom in to see them"
         return (
             f"Drag a point, or the curve itself{DOT}drag on empty space selects"
             f"{DOT}double click an edge inserts"

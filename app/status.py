@@ -25,6 +25,9 @@ MM_PER_INCH: Final = 25.4
 SIZE_DELAY_MS: Final = 60
 """The size is computed when the hand rests this long: it must not slow a drag."""
 
+HELD_POINTS: Final = 20_000
+"""Number of control points up to which the size follows while the hand rests within a drag."""
+
 SIZE_LEVEL: Final = 6
 """Dyadic level of the points that the size is taken from: 64 a span, exact to some 1e-4 of it."""
 
@@ -68,7 +71,7 @@ class StatusBar(QStatusBar):
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.setInterval(SIZE_DELAY_MS)
-        self._timer.timeout.connect(self.measure)
+        self._timer.timeout.connect(self._on_rest)
         session.changed.connect(self._on_changed)
         self.measure()
 
@@ -141,6 +144,14 @@ class StatusBar(QStatusBar):
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_warns"):
             self._colour()
+
+    def _on_rest(self) -> None:
+        """Measure, but not a long drawing while it is held: the hand would feel it."""
+        total = sum(curve.count for curve in self._session.document.curves)
+        if self._session.in_gesture and total > HELD_POINTS:
+            self._timer.start()
+        else:
+            self.measure()
 
     def _on_changed(self, old: Document, new: Document) -> None:
         if old.curves is not new.curves or old.parameters is not new.parameters:
