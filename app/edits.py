@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,8 +28,15 @@ def moved(
     document: Document, points: Iterable[tuple[int, int]], delta_mm: ArrayLike
 ) -> Document:
     """Document with some points shifted by ``delta_mm`` (2,); they stop at the admitted edge."""
+    return shifted(document, by_curve(points), delta_mm)
+
+
+def shifted(
+    document: Document, points: Mapping[int, ArrayLike], delta_mm: ArrayLike
+) -> Document:
+    """The same as `moved`, with the indices of the points given for each curve."""
     shift = np.asarray(delta_mm, dtype=np.float64)
-    for index, members in by_curve(points).items():
+    for index, members in points.items():
         curve = document.curves[index]
         places = np.clip(curve.places(members) + shift, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
         document = document.with_curve(index, curve.moved(members, places))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 
 from app.camera import Camera
-from app.edits import by_curve, counted, moved, with_moved
+from app.edits import by_curve, counted, shifted, with_moved
 from app.handles import CurveHit, PointHit
 from app.scene import NOTHING, Influence, Overlay, Scene
 from app.session import Selection, Session
@@ -207,14 +207,19 @@ class MovePoints(_Edit):
     cursor = Qt.CursorShape.SizeAllCursor
 
     def __init__(self, stage: Stage, pointer: Pointer, hit: PointHit) -> None:
-        self._points = stage.session.selection.points | {hit.key}
-        self.name = counted("Move", len(self._points))
+        points = stage.session.selection.points | {hit.key}
+        self.name = counted("Move", len(points))
         super().__init__(stage, pointer)
         self._hit = hit
         self._start_mm = stage.camera.to_mm(pointer.pos_px)
+        # Sorted once: an event shall not look at each pair again.
+        self._members = {
+            curve: np.array(members, dtype=np.intp)
+            for curve, members in by_curve(points).items()
+        }
         self._influences = tuple(
-            Influence(curve, np.array(members, dtype=np.intp), np.ones(len(members)))
-            for curve, members in by_curve(self._points).items()
+            Influence(curve, members, np.ones(len(members)))
+            for curve, members in self._members.items()
         )
 
     @property
@@ -224,7 +229,7 @@ class MovePoints(_Edit):
     def move(self, pointer: Pointer) -> None:
         way = self._stage.camera.to_mm(pointer.pos_px) - self._start_mm
         self._way_mm = one_axis(way) if pointer.shift else way
-        self._session.adjust(moved(self._origin, self._points, self._way_mm))
+        self._session.adjust(shifted(self._origin, self._members, self._way_mm))
 
 
 class PullCurve(_Edit):

@@ -27,7 +27,7 @@ class Selection:
 
     def within(self, document: Document) -> Selection:
         """The part of the selection that exists in a document."""
-        sizes = [curve.count for curve in document.curves]
+        sizes = _sizes(document)
         points = frozenset(
             (c, p) for c, p in self.points if c < len(sizes) and p < sizes[c]
         )
@@ -167,6 +167,12 @@ class Session(QObject):
 
     def _announce(self, old: Document) -> None:
         if old is not self.document:
-            self.select(self._selection)
+            if _sizes(old) != _sizes(self.document):
+                self.select(self._selection)
             self.changed.emit(old, self.document)
         self.status_changed.emit()
+
+
+def _sizes(document: Document) -> list[int]:
+    """Number of points of each curve: as long as they stay, so does a selection."""
+    return [curve.count for curve in document.curves]

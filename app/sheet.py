@@ -134,7 +134,13 @@ class Sheet(QWidget):
     def fit_all(self) -> None:
         """Show the whole drawing as large as it fits."""
         curves = self.session.document.curves
-        self._fit(np.concatenate([np.zeros((0, 2)), *(curve.points for curve in curves)]))
+        corners = [
+            extreme(curve.points, axis=0)
+            for curve in curves
+            if curve.count
+            for extreme in (np.min, np.max)
+        ]
+        self._fit(np.array(corners).reshape(-1, 2))
         self._is_fitted = True
 
     def fit_selection(self) -> None:
@@ -142,7 +148,7 @@ class Sheet(QWidget):
         curves = self.session.document.curves
         points = sorted(self.session.selection.points)
         if points:
-            self._fit(np.array([curves[curve].points[point] for curve, point in points]))
+            self._fit(np.concatenate([curves[curve].places([point]) for curve, point in points]))
         else:
             self.fit_all()
 

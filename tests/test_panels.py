@@ -133,3 +133,16 @@ def test_moves_keep_the_rows_in_view(points, session):
 def test_cells_are_read_out_in_words(points):
     spoken = cell(points, 1, 1, Role.AccessibleTextRole)
     assert spoken == "Point 2, y \N{MINUS SIGN}8.000 millimetres"
+
+
+def test_only_rows_that_changed_are_shown_anew(qtbot):
+    session = Session(Document((Curve(np.arange(400.0).reshape(-1, 2)),)))
+    panel = PointsPanel(session)
+    qtbot.addWidget(panel)
+    told = []
+    panel.model.dataChanged.connect(lambda first, last: told.append((first.row(), last.row())))
+    curve = session.document.curves[0].moved([7, 150], [(1, 2), (3, 4)])
+    session.edit(session.document.with_curve(0, curve), "Move 2 points")
+    assert told == [(7, 7), (150, 150)]
+    assert panel.model.data(panel.model.index(7, 1)) == "2.000"
+    assert panel.model.data(panel.model.index(8, 0)) == "16.000"

@@ -361,3 +361,15 @@ def test_the_cursor_says_what_a_press_would_do(mouse, canvas):
         Qt.CursorShape.SizeAllCursor,
         Qt.CursorShape.PointingHandCursor,
     ]
+
+
+def test_the_hint_tells_that_points_lie_too_close_to_be_shown(qtbot):
+    angle = np.linspace(0, 2 * np.pi, 3000, endpoint=False)
+    crowd = Document((Curve(100 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)),))
+    canvas = shown(qtbot, crowd)
+    mouse = Mouse(canvas)
+    mouse.move((450, 300))
+    assert canvas.hint.startswith("3,000 points lie too close to be shown")
+    canvas.zoom_by(1000.0)
+    mouse.move((450, 301))
+    assert "too close" not in canvas.hint

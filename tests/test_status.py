@@ -3,7 +3,7 @@ import pytest
 
 from app.opening import ready_document
 from app.session import Session
-from app.status import SIZE_LEVEL, StatusBar, drawn_size
+from app.status import HELD_POINTS, SIZE_LEVEL, StatusBar, drawn_size
 from core.document import Curve, Document
 from core.errors import NoLimitError
 from core.family import PRESETS
@@ -97,3 +97,17 @@ def test_a_sentence_takes_the_place_of_the_hint_for_a_while(qtbot):
     assert bar.hint.text() == "Drag on empty space"
     bar.show_hint("Drag a point")
     assert bar.hint.text() == "Drag a point"
+
+
+def test_the_size_of_a_long_drawing_waits_for_the_end_of_a_drag(qtbot):
+    angle = np.linspace(0, 6, HELD_POINTS + 1)
+    session = Session(Document((Curve(np.stack([np.cos(angle), np.sin(angle)], axis=1)),)))
+    bar = StatusBar(session)
+    qtbot.addWidget(bar)
+    before = bar.size_label.text()
+    session.begin("Move point")
+    session.adjust(session.document.with_curve(0, session.document.curves[0].moved([9], (50, 0))))
+    bar._on_rest()
+    assert bar.size_label.text() == before
+    session.commit()
+    qtbot.waitUntil(lambda: bar.size_label.text() != before)
