@@ -27,7 +27,7 @@ from core.view import BUDGET
 RIBBON_VERTICES: Final = 2048
 """Number of vertices along a ribbon of influence, about."""
 
-MOST_NEAR: Final = 20_000
+MOST_NEAR: Final = 4000
 """Number of control points around the mouse beyond which none of them can be meant."""
 
 RIBBON_STEP_PX: Final = 6.0

@@ -222,7 +222,8 @@ class Sheet(QWidget):
             return "" if self.overlay.preview is not None else EMPTY_HINT
         if not self._scene.has_limit:
             return NO_LIMIT_HINT
-        return "" if self._is_taught else FIRST_HINT
+        # Without a dot to be seen there is none to be dragged.
+        return "" if self._is_taught or self._scene.hidden else FIRST_HINT
 
     def document_replaced(self) -> None:
         """Take note that another document is shown (New, Open)."""
