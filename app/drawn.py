@@ -15,7 +15,7 @@ from core.detail import chord_profile, detailed, span_levels
 from core.document import Curve
 from core.limit import LimitCurve
 from core.mask import Mask
-from core.picking import points_within
+from core.picking import nearest_place, points_within
 from core.runs import Runs
 from core.view import BUDGET, view
 
@@ -128,6 +128,15 @@ class Drawn:
         """Indices of the control points in a rectangle; None if there are more than ``most``."""
         low, high = self.camera.to_mm(np.stack([low_px, high_px]))
         return _within(self._present(), np.minimum(low, high), np.maximum(low, high), most)
+
+    def on_polygon(self, pos_px: NDArray[np.float64], radius_px: float) -> float | None:
+        """Place near the mouse on the polygon: i at point i, linear along what looks straight."""
+        polygon = self._present().polygon
+        if polygon is None:
+            return None
+        radius = radius_px * self.camera.pixel_mm
+        found = nearest_place(polygon, self.camera.to_mm(pos_px), radius)
+        return None if found is None else found[0]
 
     def _present(self) -> Figure:
         self.figure.follow(self.curve)

@@ -16,7 +16,8 @@ from PySide6.QtCore import Qt
 from app.camera import Camera
 from app.edits import by_curve, counted, shifted, with_moved
 from app.handles import CurveHit, PointHit
-from app.scene import NOTHING, Influence, Overlay, Scene
+from app.ribbons import Influence
+from app.scene import NOTHING, Overlay, Scene
 from app.session import Selection, Session
 from core.pull import control_weights, pull
 

@@ -15,44 +15,16 @@ from numpy.typing import NDArray
 
 from app.camera import Camera
 from app.drawn import Drawn, polylines, traced
-from app.figure import Figure, akin, differing
-from app.handles import CurveHit, PointHit, nearest_point
+from app.figure import COMPARED, Figure, akin, differing
+from app.handles import CurveHit, EdgeHit, PointHit, nearest_edge, nearest_point
+from app.ribbons import Influence, ribbons
 from app.splice import spliced
-from app.style import SIZES
 from core.document import Curve, Document
 from core.family import Parameters
 from core.runs import Runs
-from core.view import BUDGET
-
-RIBBON_VERTICES: Final = 2048
-"""Number of vertices along a ribbon of influence, about."""
 
 MOST_NEAR: Final = 4000
 """Number of control points around the mouse beyond which none of them can be meant."""
-
-RIBBON_STEP_PX: Final = 6.0
-"""Length of the chords of a ribbon, about."""
-
-FAINT: Final = 0.004
-"""Share of the hand's move below which an influence is not drawn."""
-
-
-@dataclass(frozen=True, eq=False)
-class Influence:
-    """How control points follow the hand.
-
-    Attributes
-    ----------
-    curve
-        Index of the curve.
-    indices, shares
-        Its control points that move, and the share of the hand's move that each follows, (k,).
-    """
-
-    curve: int
-    indices: NDArray[np.intp]
-    shares: NDArray[np.float64]
-
 
 @dataclass(frozen=True, eq=False)
 class Overlay:
@@ -162,7 +134,7 @@ class Scene:
             ribbon
             for influence in overlay.influences
             if influence.curve < len(self.curves)
-            for ribbon in self._ribbons(self.curves[influence.curve], influence)
+            for ribbon in ribbons(self.curves[influence.curve], influence)
         )
         shown, self.preview = self.preview, None
         if overlay.preview is not None:
@@ -198,6 +170,19 @@ class Scene:
         ]
         hit = nearest_point(places, pos_px, radius_px, preferred)
         return None if hit is None else replace(hit, point=int(indices[hit.curve][hit.point]))
+
+    def nearest_edge(
+        self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1
+    ) -> EdgeHit | None:
+        """Place on a control polygon near the mouse, as `app.handles.nearest_edge`."""
+        near = [_near_edges(drawn, pos_px, radius_px) for drawn in self.curves]
+        # All edges of a short polygon are looked at, with the one that closes it.
+        loops = [
+            drawn.curve.is_loop and drawn.curve.count <= COMPARED for drawn in self.curves
+        ]
+        places = [drawn.places_px(found) for drawn, found in zip(self.curves, near, strict=True)]
+        hit = nearest_edge(places, loops, pos_px, radius_px, preferred)
+        return None if hit is None else replace(hit, edge=int(near[hit.curve][hit.edge]))
 
     def points_within(
         self, corner_px: NDArray[np.float64], opposite_px: NDArray[np.float64]
@@ -258,58 +243,18 @@ class Scene:
             parts.extend(known[2])
         return tuple(parts)
 
-    def _ribbons(self, drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
-        """Outlines along a curve, as broad as the curve follows the hand."""
-        if drawn.limit is None:
-            return []
-        limit, indices = drawn.figure.limit, influence.indices
-        if limit is None or not limit.spans or not len(indices):
-            return []
-        if indices.max() >= drawn.curve.count:
-            return []
-        touched = _stretches(drawn.figure.touched(indices), limit.spans, limit.closed)
-        if sum(len(spans) for spans in touched) > BUDGET:
-            return []  # So much of the curve follows that a ribbon would only be a blot.
-        pairs = [(spans, self._ribbon_level(limit.span_points(spans, 0))) for spans in touched]
-        centres = [_joined(limit.span_points(*pair)) for pair in pairs]
-        # The curve is linear in its points: what a unit of the hand's way does is its share.
-        places = drawn.curve.places(indices)
-        limit.move(indices, places + influence.shares[:, None] * (1.0, 0.0))
-        shifted = [_joined(limit.span_points(*pair)) for pair in pairs]
-        limit.move(indices, places)
-        ribbons: list[NDArray[np.float64]] = []
-        for centre, after in zip(centres, shifted, strict=True):
-            share = np.abs(after[:, 0] - centre[:, 0])
-            line = self._camera.to_pixels(centre)
-            strong = np.flatnonzero(share > FAINT)
-            ribbons.extend(
-                _ribbon(line[stretch], share[stretch])
-                for stretch in np.split(strong, np.flatnonzero(np.diff(strong) > 1) + 1)
-                if len(stretch) > 1
-            )
-        return ribbons
-
-    def _ribbon_level(self, ends: NDArray[np.float64]) -> int:
-        """Dyadic level at which the chords of spans, whose ends are (k, 2, 2), are short enough."""
-        longest = float(np.hypot(*(ends[:, 1] - ends[:, 0]).T).max()) * self._camera.scale
-        wanted = np.ceil(np.log2(max(longest / RIBBON_STEP_PX, 1.0)))
-        admitted = np.log2(RIBBON_VERTICES / len(ends))
-        return int(np.clip(min(wanted, admitted), 0, 5))
-
-
-def _joined(spans: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points of consecutive spans, shape (k, m + 1, 2), as one polyline."""
-    return np.concatenate([spans[:, :-1].reshape(-1, 2), spans[-1, -1:]])
-
-
-def _stretches(
-    ranges: tuple[range, ...], total: int, closed: bool
-) -> list[NDArray[np.intp]]:
-    """Spans of each range; on a loop, those on both sides of the seam are one stretch."""
-    parts = [np.arange(part.start, part.stop) for part in ranges]
-    if closed and len(parts) > 1 and ranges[0].start == 0 and ranges[-1].stop == total:
-        parts[0] = np.concatenate([parts.pop(), parts[0]])
-    return parts
+def _near_edges(
+    drawn: Drawn, pos_px: NDArray[np.float64], radius_px: float
+) -> NDArray[np.intp]:
+    """Consecutive control points, of a long polygon only those about the place near the mouse."""
+    count = drawn.curve.count
+    if count <= COMPARED:
+        return np.arange(count)
+    t = drawn.on_polygon(pos_px, radius_px)
+    if t is None:
+        return np.zeros(0, dtype=np.intp)
+    about = int(t) + np.arange(-COMPARED // 2, COMPARED // 2)
+    return about % count if drawn.curve.is_loop else about[(about >= 0) & (about < count)]
 
 
 def _part(before: Drawn, changed: NDArray[np.intp] | None) -> _Ghost:
@@ -341,16 +286,3 @@ def _between(
 ) -> NDArray[np.float64]:
     """Places on a polyline at some t, shape (k, 2)."""
     return np.stack([np.interp(times, known, places[:, axis]) for axis in (0, 1)], axis=-1)
-
-
-def _ribbon(
-    centre: NDArray[np.float64], share: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Outline of a band about a line, ``share`` of the full breadth wide."""
-    along = np.gradient(centre, axis=0)
-    length = np.hypot(*along.T)
-    # Where points coincide there is no direction, and the band has no breadth.
-    across = np.divide(along[:, ::-1] * (-1, 1), length[:, None],
-                       out=np.zeros_like(along), where=length[:, None] > 0)
-    half = SIZES.ribbon_width * np.minimum(share, 1.5)[:, None] * across
-    return np.concatenate([centre + half, (centre - half)[::-1]])

@@ -10,7 +10,6 @@ from app.handles import (
     CurveHit,
     EdgeHit,
     PointHit,
-    nearest_edge,
     nearest_on_curve,
 )
 from app.scene import NOTHING, Overlay
@@ -196,13 +195,8 @@ class SelectTool(DragTool):
         stage = self._stage
         curves = stage.scene.curves
         if stage.show_polygon:
-            edge = nearest_edge(
-                [drawn.points_px for drawn in curves],
-                [drawn.curve.is_loop for drawn in curves],
-                pointer.pos_px,
-                SIZES.hit_edge,
-                stage.session.selection.curve,
-            )
+            active = stage.session.selection.curve
+            edge = stage.scene.nearest_edge(pointer.pos_px, SIZES.hit_edge, active)
             if edge is not None:
                 return edge
         hit = self._hit_curve(pointer)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from app.camera import Camera
-from app.scene import FAINT, NOTHING, Influence, Overlay, Scene
+from app.ribbons import FAINT, Influence
+from app.scene import NOTHING, Overlay, Scene
 from app.style import SIZES
 from core.document import Curve, Document
 from core.family import PRESETS, Parameters
@@ -264,3 +265,20 @@ def test_moves_drawn_by_splices_are_the_curve_to_a_quarter_pixel():
                 )
                 assert (np.diff(now.parameters) >= 0).all()
             assert splices >= 2
+
+
+@pytest.mark.parametrize("count", [2, 8, 5000])
+@pytest.mark.parametrize("closed", [True, False])
+def test_the_nearest_edge_is_found_among_any_number(count, closed):
+    angle = np.linspace(0, 6.2, count) ** 1.1
+    points = 25 * np.stack([np.cos(angle), np.sin(angle)], axis=-1) + (60, 30)
+    scene = drawn(Document((Curve(points, closed),)))
+    polygon = scene.curves[0].points_px
+    loop = scene.curves[0].curve.is_loop
+    ring = np.concatenate([polygon, polygon[:1]]) if loop else polygon
+    for place in 0.5 * (ring[1:] + ring[:-1])[:: max(count // 9, 1)]:
+        hit = scene.nearest_edge(place + 0.01, 6.0)
+        start, end = ring[hit.edge : hit.edge + 2]
+        foot = start + hit.share * (end - start)
+        assert np.hypot(*(foot - place)) <= 0.02
+    assert scene.nearest_edge(np.array([2.0, 2.0]), 6.0) is None

@@ -1,0 +1,108 @@
+"""Ribbons of influence: along a curve, as broad as the curve follows the hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.camera import Camera
+from app.drawn import Drawn
+from app.style import SIZES
+from core.view import BUDGET
+
+RIBBON_VERTICES: Final = 2048
+"""Number of vertices along a ribbon of influence, about."""
+
+RIBBON_STEP_PX: Final = 6.0
+"""Length of the chords of a ribbon, about."""
+
+FAINT: Final = 0.004
+"""Share of the hand's move below which an influence is not drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class Influence:
+    """How control points follow the hand.
+
+    Attributes
+    ----------
+    curve
+        Index of the curve.
+    indices, shares
+        Its control points that move, and the share of the hand's move that each follows, (k,).
+    """
+
+    curve: int
+    indices: NDArray[np.intp]
+    shares: NDArray[np.float64]
+
+
+def ribbons(drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
+    """Outlines along a curve, as broad as the curve follows the hand."""
+    if drawn.limit is None:
+        return []
+    limit, indices = drawn.figure.limit, influence.indices
+    if limit is None or not limit.spans or not len(indices):
+        return []
+    if indices.max() >= drawn.curve.count:
+        return []
+    touched = _stretches(drawn.figure.touched(indices), limit.spans, limit.closed)
+    if sum(len(spans) for spans in touched) > BUDGET:
+        return []  # So much of the curve follows that a ribbon would only be a blot.
+    pairs = [(spans, _level(limit.span_points(spans, 0), drawn.camera)) for spans in touched]
+    centres = [_joined(limit.span_points(*pair)) for pair in pairs]
+    # The curve is linear in its points: what a unit of the hand's way does is its share.
+    places = drawn.curve.places(indices)
+    limit.move(indices, places + influence.shares[:, None] * (1.0, 0.0))
+    shifted = [_joined(limit.span_points(*pair)) for pair in pairs]
+    limit.move(indices, places)
+    ribbons: list[NDArray[np.float64]] = []
+    for centre, after in zip(centres, shifted, strict=True):
+        share = np.abs(after[:, 0] - centre[:, 0])
+        line = drawn.camera.to_pixels(centre)
+        strong = np.flatnonzero(share > FAINT)
+        ribbons.extend(
+            _ribbon(line[stretch], share[stretch])
+            for stretch in np.split(strong, np.flatnonzero(np.diff(strong) > 1) + 1)
+            if len(stretch) > 1
+        )
+    return ribbons
+
+
+def _level(ends: NDArray[np.float64], camera: Camera) -> int:
+    """Dyadic level at which the chords of spans, whose ends are (k, 2, 2), are short enough."""
+    longest = float(np.hypot(*(ends[:, 1] - ends[:, 0]).T).max()) * camera.scale
+    wanted = np.ceil(np.log2(max(longest / RIBBON_STEP_PX, 1.0)))
+    admitted = np.log2(RIBBON_VERTICES / len(ends))
+    return int(np.clip(min(wanted, admitted), 0, 5))
+
+
+def _joined(spans: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points of consecutive spans, shape (k, m + 1, 2), as one polyline."""
+    return np.concatenate([spans[:, :-1].reshape(-1, 2), spans[-1, -1:]])
+
+
+def _stretches(
+    ranges: tuple[range, ...], total: int, closed: bool
+) -> list[NDArray[np.intp]]:
+    """Spans of each range; on a loop, those on both sides of the seam are one stretch."""
+    parts = [np.arange(part.start, part.stop) for part in ranges]
+    if closed and len(parts) > 1 and ranges[0].start == 0 and ranges[-1].stop == total:
+        parts[0] = np.concatenate([parts.pop(), parts[0]])
+    return parts
+
+
+def _ribbon(
+    centre: NDArray[np.float64], share: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Outline of a band about a line, ``share`` of the full breadth wide."""
+    along = np.gradient(centre, axis=0)
+    length = np.hypot(*along.T)
+    # Where points coincide there is no direction, and the band has no breadth.
+    across = np.divide(along[:, ::-1] * (-1, 1), length[:, None],
+                       out=np.zeros_like(along), where=length[:, None] > 0)
+    half = SIZES.ribbon_width * np.minimum(share, 1.5)[:, None] * across
+    return np.concatenate([centre + half, (centre - half)[::-1]])
