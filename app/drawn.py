@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.camera import Camera
 from app.figure import Figure
+from app.spans import span_vertices
 from core.detail import chord_profile, detailed, span_levels
 from core.document import Curve
 from core.limit import LimitCurve
@@ -33,6 +34,12 @@ LEAST_SPACING_PX: Final = 4.0
 
 REACH_PX: Final = 12.0
 """How far around the canvas curves and points are drawn: what their pens and handles cover."""
+
+SHORT: Final = 64
+"""Number of spans up to which a curve is drawn whole, without its levels of detail."""
+
+SHORT_VERTICES: Final = 512
+"""Number of vertices up to which it is: at high zoom most of them would be out of view."""
 
 SPLICED_FROM: Final = 72
 """Number of spans from which moves of a point are drawn by `app.splice`: four times its reach."""
@@ -162,14 +169,19 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
         tolerance /= 2
     low, high = seen_mm(camera)
     centre = np.array([camera.x_mm, camera.y_mm])
-    if limit is None or not limit.spans:
-        outline = _NOTHING
-    elif figure.outline is None:
-        outline = _unproven(limit, tolerance, camera)
-    else:
-        outline = view(figure.outline, low, high, tolerance, centre)
+    outline = _NOTHING
+    if limit is not None and limit.spans:
+        short = _short(limit, tolerance, centre) if figure.is_proven else None
+        if short is not None:
+            outline = short
+        elif figure.outline is not None:
+            outline = view(figure.outline, low, high, tolerance, centre)
+        else:
+            outline = _unproven(limit, tolerance, camera)
     polygon = _NOTHING
-    if figure.polygon is not None:
+    if 2 <= figure.curve.count <= SHORT:
+        polygon = _corners(figure.curve, centre)
+    elif figure.polygon is not None:
         polygon = view(figure.polygon, low, high, tolerance, centre)
     flip, shift = (camera.scale, -camera.scale), (camera.width / 2, camera.height / 2)
     return Drawn(
@@ -187,6 +199,24 @@ def seen_mm(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     low, high = camera.rectangle_mm()
     reach = REACH_PX * camera.pixel_mm
     return low - reach, high + reach
+
+
+def _short(
+    limit: LimitCurve, tolerance: float, centre: NDArray[np.float64]
+) -> Runs | None:
+    """All of a curve of few spans, where that takes few vertices."""
+    found = span_vertices(limit, range(limit.spans), tolerance) if limit.spans <= SHORT else None
+    if found is None or len(found[0]) > SHORT_VERTICES:
+        return None
+    t, points = found
+    return Runs(points - centre, t, np.array([0, len(t)]), tolerance)
+
+
+def _corners(curve: Curve, centre: NDArray[np.float64]) -> Runs:
+    """All of a control polygon."""
+    indices = np.arange(curve.count + curve.is_loop)
+    corners = curve.places(indices % curve.count) - centre
+    return Runs(corners, indices.astype(np.float64), np.array([0, len(indices)]), 0.0)
 
 
 def polylines(runs: Runs, period: int) -> tuple[NDArray[np.float64], ...]:
@@ -231,7 +261,7 @@ def _shown(figure: Figure, camera: Camera) -> NDArray[np.intp] | None:
 def _within(
     figure: Figure, low: NDArray[np.float64], high: NDArray[np.float64], most: int | None
 ) -> NDArray[np.intp] | None:
-    if figure.polygon is not None:
+    if figure.curve.count > SHORT and figure.polygon is not None:
         return points_within(figure.polygon, low, high, most)
     points = figure.curve.points
     return np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))

@@ -26,11 +26,6 @@ DENSE: Final = 4000
 """Number of vertices above which those that fall on the same quarter pixel are merged."""
 
 
-def closed_up(vertices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Vertices with the first one again at the end."""
-    return np.concatenate([vertices, vertices[:1]])
-
-
 def runs(vertices: NDArray[np.float64], limit: float = SAFE_PX) -> list[NDArray[np.float64]]:
     """Parts of a polyline within the square of half width ``limit`` about the origin.
 

@@ -17,9 +17,7 @@ from numpy.typing import NDArray
 
 from app.drawn import SPLICED_FROM, TOLERANCE_PX, Drawn, seen_mm
 from app.figure import differing
-from core.chords import chord_constant, second_difference_norm
-from core.limit import LimitCurve
-from core.pyramid import running_max
+from app.spans import span_vertices
 from core.runs import Runs
 
 MOST_SPANS: Final = 256
@@ -27,9 +25,6 @@ MOST_SPANS: Final = 256
 
 MOST_RANGES: Final = 8
 """Number of stretches of them; beyond, all is drawn from the levels of detail."""
-
-FINEST: Final = 6
-"""Dyadic level beyond which a span has to be cut to what is seen of it."""
 
 
 def spliced(base: Drawn, ratio: float) -> Drawn | None:
@@ -61,7 +56,7 @@ def spliced(base: Drawn, ratio: float) -> Drawn | None:
     tolerance = TOLERANCE_PX / ratio * camera.pixel_mm
     outline, polygon = base.outline, base.polygon
     for spans in touched:
-        found = _vertices(limit, spans, tolerance)
+        found = span_vertices(limit, spans, tolerance)
         if found is None:
             return None
         outline = inserted(outline, found[0], camera.to_pixels(found[1]))
@@ -95,31 +90,3 @@ def inserted(runs: Runs, t: NDArray[np.float64], vertices: NDArray[np.float64]) 
         np.concatenate([before, own, next_run, behind]),
         runs.deviation,
     )
-
-
-def _vertices(
-    limit: LimitCurve, spans: range, tolerance: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """Places t and points of consecutive spans, each as fine as it needs; None if too fine."""
-    mask = limit.mask
-    reads = mask.end - mask.start + 1
-    windows = limit.endless_points[spans.start : spans.stop + reads - 1]
-    bends = np.hypot(*np.diff(windows, n=2, axis=0).T)
-    bounds = chord_constant(mask) * running_max(bends, reads - 2)
-    shrinking = [second_difference_norm(mask, level) for level in range(1, FINEST + 1)]
-    if bounds.max() * shrinking[-1] > tolerance:
-        return None
-    steps = np.concatenate([[1.0], shrinking])
-    levels = (bounds[:, None] * steps > tolerance).sum(axis=1)
-    sizes = 1 << levels
-    offsets = np.concatenate([[0], np.cumsum(sizes)])
-    t, points = np.empty(offsets[-1] + 1), np.empty((offsets[-1] + 1, 2))
-    for level in range(int(levels.max()) + 1):
-        chosen = np.flatnonzero(levels == level)
-        if not len(chosen):
-            continue
-        place = np.arange((1 << level) + 1)
-        into = offsets[chosen][:, None] + place
-        t[into] = spans.start + chosen[:, None] + place / (1 << level)
-        points[into] = limit.span_points(spans.start + chosen, level)
-    return t, points

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 
-from app.polyline import DENSE, SAFE_PX, closed_up, point_of, polygon_of, runs, stroke, thinned
+from app.polyline import DENSE, SAFE_PX, point_of, polygon_of, runs, stroke, thinned
 
 coordinates = st.one_of(st.floats(-300, 300), st.sampled_from([1e4, -1e4, 1e12, -1e35, 1e35]))
 polylines = st.lists(st.tuples(coordinates, coordinates), min_size=2, max_size=8).map(np.array)
@@ -80,14 +80,11 @@ def test_a_place_is_kept_within_what_qt_holds():
     assert point_of(np.array([1e300, -1e300])).toTuple() == (SAFE_PX, -SAFE_PX)
 
 
-def test_closing_repeats_the_first_vertex():
-    np.testing.assert_array_equal(closed_up(np.array([(1, 2), (3, 4)])), [(1, 2), (3, 4), (1, 2)])
-
-
 @pytest.mark.parametrize("count", [40, 3000])
 def test_a_stroke_covers_the_curve_without_gaps(count):
     angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
-    circle = closed_up(100 + 80 * np.stack([np.cos(angle), np.sin(angle)], axis=-1))
+    circle = 100 + 80 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    circle = np.concatenate([circle, circle[:1]])
     image = QImage(200, 200, QImage.Format.Format_RGB32)
     image.fill(QColor("white"))
     with QPainter(image) as painter:
