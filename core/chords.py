@@ -42,7 +42,7 @@ def second_difference_norm(mask: Mask, level: int) -> float:
     It is ``max_i sum_j |b_{i - 2^level j}|`` of the iterated symbol
     ``b(z) b(z^2) ... b(z^(2^(level-1)))``, ``b = a / (1+z)^2`` (paper, Theorem 2.1).
     """
-    step = mask.divided(2).values
+    step = _second_differences(mask)
     iterated = np.ones(1)
     for _ in range(level):
         spread = np.zeros(2 * len(iterated) - 1)
@@ -51,6 +51,12 @@ def second_difference_norm(mask: Mask, level: int) -> float:
     period = 2**level
     padded = np.concatenate([iterated, np.zeros(-len(iterated) % period)])
     return float(np.abs(padded).reshape(-1, period).sum(axis=0).max()) * ROUNDING
+
+
+@lru_cache(maxsize=MEMORY)
+def _second_differences(mask: Mask) -> NDArray[np.float64]:
+    """Coefficients of ``a(z) / (1+z)^2``; the exact division is slow, and asked for many levels."""
+    return mask.divided(2).values
 
 
 @lru_cache(maxsize=MEMORY)
