@@ -40,9 +40,9 @@ CUSTOM: Final = "Custom"
 """What the preset menu shows for parameters without a name."""
 
 PRESET_TIPS: Final[dict[str, str]] = {
-    "Lagrange": "Keeps closest to the polygon, and rings: 12 % overshoot. C\N{SUPERSCRIPT TWO}.",
-    "Calm": "Halfway: smooth, with hardly any overshoot (0.03 %). C\N{SUPERSCRIPT THREE}.",
-    "Tight": "Pulled tight around bends, rings a little (5 %). C\N{SUPERSCRIPT FOUR}.",
+    "Lagrange": "Keeps closest to the polygon, and rings: 12\u00a0% overshoot. C\N{SUPERSCRIPT TWO}.",
+    "Calm": "Halfway: smooth, with hardly any overshoot (0.03\u00a0%). C\N{SUPERSCRIPT THREE}.",
+    "Tight": "Pulled tight around bends, rings a little (5\u00a0%). C\N{SUPERSCRIPT FOUR}.",
     "Lean": "Leans along the direction of the polygon. C\N{SUPERSCRIPT THREE}.",
     "B-spline": "Smoothest of all, cuts corners, never overshoots. C\u00b9\u00b9.",
 }

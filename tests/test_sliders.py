@@ -273,7 +273,7 @@ def test_the_numbers_in_the_tips_are_proven(name):
     assert told == class_name(smoothness(mask).order)
     assert class_name(smoothness(mask).not_class) == class_name(smoothness(mask).order + 1)
     gibbs = step_gibbs(mask)
-    for number in re.findall(r"([\d.]+) %", tip):
+    for number in re.findall(r"([\d.]+)\s%", tip):
         decimals = len(number.partition(".")[2])
         assert number == f"{100 * gibbs.overshoot.lower:.{decimals}f}"
     assert ("never overshoots" in tip) is (gibbs.overshoot.upper == gibbs.undershoot.upper == 0)
