@@ -40,7 +40,7 @@ CUSTOM: Final = "Custom"
 """What the preset menu shows for parameters without a name."""
 
 PRESET_TIPS: Final[dict[str, str]] = {
-    "Lagrange": "Keeps closest to the polygon, and rings: 12\u00a0% overshoot. C\N{SUPERSCRIPT TWO}.",
+    "Lagrange": "Keeps closest to the polygon, and rings: 12\u00a0% overshoot. C\u00b2.",
     "Calm": "Halfway: smooth, with hardly any overshoot (0.03\u00a0%). C\N{SUPERSCRIPT THREE}.",
     "Tight": "Pulled tight around bends, rings a little (5\u00a0%). C\N{SUPERSCRIPT FOUR}.",
     "Lean": "Leans along the direction of the polygon. C\N{SUPERSCRIPT THREE}.",
