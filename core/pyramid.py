@@ -16,6 +16,7 @@ chord. All bounds hold up to the rounding of the points.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from typing import Final
 
@@ -38,7 +39,7 @@ _CHUNK: Final = 1024
 """Blocks that are computed at a time: what they need stays in the cache."""
 
 
-class Pyramid:
+class Pyramid(ABC):
     """Levels of detail above consecutive spans.
 
     Parameters
@@ -78,6 +79,7 @@ class Pyramid:
             count = room // FAN
         self.update((range(spans),))
 
+    @abstractmethod
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Ends of the spans of some blocks, and how far each coordinate can leave the chord.
 
@@ -91,7 +93,6 @@ class Pyramid:
         ends, margins
             Shapes (2, m, 9) and (2, m, 8). Spans beyond the end of the curve are points.
         """
-        raise NotImplementedError
 
     def update(self, touched: Iterable[range]) -> None:
         """Take over spans that have changed; the cost is that of the changed blocks.
