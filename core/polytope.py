@@ -36,7 +36,7 @@ def never() -> bool:
 def polytope_norm(
     vertices: NDArray[np.float64], start: NDArray[np.float64], point: NDArray[np.float64]
 ) -> float:
-    """Upper bound of ``min sum |c|`` over ``vertices @ c = point``, the minimum unless given up.
+    """Upper bound of ``min sum |c|`` over ``vertices @ c = point``, on the minimum's side of 1.
 
     Parameters
     ----------
@@ -51,9 +51,10 @@ def polytope_norm(
     Returns
     -------
     float
-        A norm at most 1 proves that the point lies inside: the search ends there at once, and the
-        combination found is checked against the point. What it misses is added with the basis it
-        is measured in, so that only the rounding of that check remains, some 1e-15.
+        The search ends as soon as the point is proven inside or outside. A norm at most 1 proves
+        that it lies inside: the combination found is checked against the point. What it misses is
+        added with the basis it is measured in, so that only the rounding of that check remains,
+        some 1e-15.
 
     Notes
     -----
@@ -70,6 +71,9 @@ def polytope_norm(
             break
         prices = inverse.sum(axis=0) @ vertices
         entering = int(np.abs(prices).argmax())
+        # The prices, made feasible, bound the minimum from below: the point may be proven outside.
+        if coefficients.sum() > INSIDE * abs(prices[entering]):
+            break
         if abs(prices[entering]) <= 1 + _PIVOT:
             break
         sign = np.sign(prices[entering])
