@@ -6,7 +6,7 @@ calls. Nothing else in the program defines a shortcut.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Final
@@ -279,7 +279,7 @@ class Actions:
         self._window = window
         self._groups: dict[str, QActionGroup] = {}
         self._made = {command.key: self._make(command) for command in COMMANDS}
-        self.tint()
+        self.tint(TOOL_BAR)  # menus are shut for now, and their icons would take 5 ms
         self.refresh()
 
     def __getitem__(self, key: str) -> QAction:
@@ -334,11 +334,17 @@ class Actions:
         for key in ("delete", "fit selection"):
             self._made[key].setEnabled(bool(session.selection.points))
 
-    def tint(self) -> None:
-        """Draw the icons in the colours of the window's palette, for the pixels of its screen."""
+    def tint(self, keys: Collection[str] | None = None) -> None:
+        """Draw icons in the colours of the window's palette, for the pixels of its screen.
+
+        Parameters
+        ----------
+        keys
+            Those of the actions; all by default.
+        """
         palette, ratio = self._window.palette(), self._window.devicePixelRatioF()
         for command in COMMANDS:
-            if command.icon:
+            if command.icon and (keys is None or command.key in keys):
                 self._made[command.key].setIcon(tinted(command.icon, palette, ratio))
 
 

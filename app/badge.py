@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen, QPolygonF
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
-from app.analysis import Finding
 from app.guard import guarded
 from app.style import color, palette_of
+
+if TYPE_CHECKING:
+    from app.analysis import Finding
 
 MARK_PX: Final = 16
 """Side of the mark."""

@@ -6,6 +6,7 @@ and an export neither needs a screen nor Qt's libraries.
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import re
@@ -231,9 +232,15 @@ def _open_window(
             raise click.UsageError(f"The picture is a PNG file; {screenshot} must end in .png.")
         # The same picture with and without a screen, and no window that flashes up.
         os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    from app.launch import run
+    # Nothing that a start makes is garbage, and the search for some takes 15 ms before the first
+    # paint; `run` begins it once all is loaded.
+    gc.disable()
+    try:
+        from app.launch import run
 
-    return run(path, screenshot, size, theme)
+        return run(path, screenshot, size, theme)
+    finally:
+        gc.enable()
 
 
 def _only_file(files: tuple[Path, ...]) -> Path | None:

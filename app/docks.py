@@ -1,7 +1,12 @@
-"""The panels around the canvas: where they stand at first, and the plots that come later."""
+"""The panels around the canvas: where they stand at first, and what comes later.
+
+The plots come after the first paint, which they would double; report and map, hidden at first, when
+they are first seen.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import Qt
@@ -36,8 +41,10 @@ class Docks:
     ----------
     window
         The window that they belong to.
-    scheme, curves, points, report, atlas
-        What the panels on the right hold; report and map are hidden at first.
+    scheme, curves, points
+        What the panels on the right hold.
+    report, atlas
+        Return what report and map hold; both are hidden at first.
     """
 
     def __init__(
@@ -46,14 +53,15 @@ class Docks:
         scheme: QWidget,
         curves: QWidget,
         points: QWidget,
-        report: QWidget,
-        atlas: QWidget,
+        report: Callable[[], QWidget],
+        atlas: Callable[[], QWidget],
     ) -> None:
         self._window = window
         self.scheme = self._dock("Scheme", scheme)
         self.lists = self._dock("Curves and points", _stacked(curves, points))
-        self.report = self._dock("Report", report)
-        self.map = self._dock("Map", atlas)
+        self._makers: dict[QDockWidget, Callable[[], QWidget]] = {}
+        self.report = self._late_dock("Report", report)
+        self.map = self._late_dock("Map", atlas)
         self.basis = self._dock("Basis function", _waiting())
         self.step = self._dock("Step response", _waiting())
         self.basis_plot: BasisPlot | None = None
@@ -85,15 +93,19 @@ class Docks:
         half = max((window.width() - SIDE_PX) // 2, 1)
         window.resizeDocks([self.basis, self.step], [half, half], Qt.Orientation.Horizontal)
 
+    def open(self, dock: QDockWidget) -> None:
+        """Show a dock, before others that share its place."""
+        self._fill(dock)
+        dock.show()
+        dock.raise_()
+
     def plot(self, session: Session) -> None:
         """Load pyqtgraph and put the plots where they belong; takes a third of a second."""
         from app.plots import BasisPlot, StepPlot
 
         self.basis_plot, self.step_plot = BasisPlot(session), StepPlot(session)
         for dock, plot in ((self.basis, self.basis_plot), (self.step, self.step_plot)):
-            waiting = dock.widget()
-            dock.setWidget(_framed(plot))
-            waiting.deleteLater()
+            _replace(dock, _framed(plot))
 
     def _dock(self, title: str, content: QWidget) -> QDockWidget:
         dock = QDockWidget(title, self._window)
@@ -101,6 +113,18 @@ class Docks:
         dock.setAccessibleName(title)
         dock.setWidget(content)
         return dock
+
+    def _late_dock(self, title: str, make: Callable[[], QWidget]) -> QDockWidget:
+        """Return a dock whose content is made when it is first seen."""
+        dock = self._dock(title, _waiting())
+        self._makers[dock] = make
+        dock.visibilityChanged.connect(lambda seen: self._fill(dock) if seen else None)
+        return dock
+
+    def _fill(self, dock: QDockWidget) -> None:
+        make = self._makers.pop(dock, None)
+        if make is not None:
+            _replace(dock, make())
 
 
 def _stacked(curves: QWidget, points: QWidget) -> QSplitter:
@@ -112,6 +136,12 @@ def _stacked(curves: QWidget, points: QWidget) -> QSplitter:
     splitter.setStretchFactor(1, 1)
     splitter.setSizes([CURVES_PX, LISTS_PX - CURVES_PX])
     return splitter
+
+
+def _replace(dock: QDockWidget, content: QWidget) -> None:
+    before = dock.widget()
+    dock.setWidget(content)
+    before.deleteLater()
 
 
 def _waiting() -> QWidget:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import sys
 import traceback
 from types import TracebackType
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QMessageBox, QWidget
+
+if TYPE_CHECKING:
+    from PySide6.QtWidgets import QMessageBox, QWidget
 
 SENTENCE = "Something went wrong inside Ninepoint."
 ADVICE = (
@@ -52,6 +55,8 @@ class Failures:
         QTimer.singleShot(0, self._window, lambda: self._show(details))
 
     def _show(self, details: str) -> None:
+        from PySide6.QtWidgets import QMessageBox  # rarely wanted, and slow to make
+
         box = QMessageBox(
             QMessageBox.Icon.Critical,
             "Ninepoint",

@@ -43,12 +43,8 @@ def tinted(name: str, palette: QPalette, ratio: float) -> QIcon:
 
 
 def program_icon() -> QIcon:
-    """The program's own icon, which keeps its colours."""
-    renderer = QSvgRenderer(str(icon_path("ninepoint")))
-    icon = QIcon()
-    for size in (16, 32, 48, 64, 128, 256):
-        icon.addPixmap(_picture(renderer, size, 1.0))
-    return icon
+    """The program's own icon, which keeps its colours; Qt draws it in the sizes that are shown."""
+    return QIcon(str(icon_path("ninepoint")))
 
 
 def _coloured(drawing: str, colour: QColor) -> QByteArray:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from PySide6.QtCore import QEvent, QTimer
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QToolButton, QWidget
 
-from app.analysis import Finding
 from app.guard import guarded
 from app.session import Session
 from app.style import palette_of
 from core.document import Document
 from core.errors import NinepointError
+
+if TYPE_CHECKING:
+    from app.analysis import Finding
 
 MESSAGE_MS: Final = 8_000
 """How long a sentence such as "Saved wing.ninepoint." covers the hint: time to read it twice."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
@@ -17,23 +19,25 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QMainWindow, QToolBar, QWidget
 
 from app.actions import TOOL_BAR, Actions
-from app.analysis import Analysis, Finding
 from app.canvas import Canvas
 from app.dialogs import Dialogs
 from app.docks import Docks
-from app.exporting import Exporter
 from app.files import Files
 from app.guard import guarded
-from app.map_panel import MapPanel
 from app.menus import fill_menu_bar, open_context_menu
 from app.opening import ready_document
 from app.panels import CurvesPanel, PointsPanel
-from app.report_panel import ReportPanel
 from app.session import Selection, Session
 from app.settings import STATE_VERSION, Settings, on_screen
 from app.sliders import SchemePanel
 from app.status import StatusBar
 from core.document import Curve
+
+if TYPE_CHECKING:
+    from app.analysis import Analysis, Finding
+    from app.exporting import Exporter
+    from app.map_panel import MapPanel
+    from app.report_panel import ReportPanel
 
 DEFAULT_SIZE: Final = (1280, 800)
 """Size of the window at the first start, in logical pixels."""
@@ -66,7 +70,6 @@ class MainWindow(QMainWindow):
     settings: Settings
     dialogs: Dialogs
     files: Files
-    exporter: Exporter
     canvas: Canvas
     scheme: SchemePanel
     commands: Actions
@@ -86,17 +89,14 @@ class MainWindow(QMainWindow):
         self._painted = False
         self.shows_slope = False
         self.files = Files(self.session, self.settings, self.dialogs, self)
-        self.exporter = Exporter(self.session, self.files, self.settings, self.dialogs, self)
         self.canvas = Canvas(self.session, self)
         self.scheme = SchemePanel(self.session)
         self.curves = CurvesPanel(self.session)
         self.points = PointsPanel(self.session)
-        self.report = ReportPanel()
-        self.map = MapPanel(self.session)
-        self.analysis = Analysis(self.session, self)
+        self._stops: list[Callable[[], None]] = []
         self.setCentralWidget(self.canvas)
         self.docks = Docks(
-            self, self.scheme, self.curves, self.points, self.report, self.map
+            self, self.scheme, self.curves, self.points, lambda: self.report, lambda: self.map
         )
         self.status = StatusBar(self.session, self)
         self.setStatusBar(self.status)
@@ -136,13 +136,51 @@ class MainWindow(QMainWindow):
         canvas.zoom_changed.connect(status.show_zoom)
         canvas.tool_changed.connect(lambda _tool: self.commands.refresh())
         canvas.customContextMenuRequested.connect(lambda at: open_context_menu(self, at))
-        self.analysis.changed.connect(self._show_finding)
-        self.report.read.connect(self.analysis.want_report)
         status.proof.clicked.connect(self.commands["report"].trigger)
-        for teller in (self.files.told, self.exporter.told, self.report.told):
-            teller.connect(status.tell)
+        self.files.told.connect(status.tell)
         for refuser in (self.scheme.refused, self.points.refused):
             refuser.connect(status.tell)
+
+    # What the first paint does not need is made when it is first asked for: 12 ms.
+
+    @cached_property
+    def analysis(self) -> Analysis:
+        """What finds out about the scheme."""
+        from app.analysis import Analysis
+
+        analysis = Analysis(self.session, self)
+        analysis.changed.connect(self._show_finding)
+        self._stops.append(analysis.stop)
+        return analysis
+
+    @cached_property
+    def exporter(self) -> Exporter:
+        """What writes SVG and DXF."""
+        from app.exporting import Exporter
+
+        exporter = Exporter(self.session, self.files, self.settings, self.dialogs, self)
+        exporter.told.connect(self.status.tell)
+        return exporter
+
+    @cached_property
+    def report(self) -> ReportPanel:
+        """The report on the scheme."""
+        from app.report_panel import ReportPanel
+
+        panel = ReportPanel()
+        panel.read.connect(self.analysis.want_report)
+        panel.told.connect(self.status.tell)
+        self.analysis.changed.connect(panel.show_finding)
+        return panel
+
+    @cached_property
+    def map(self) -> MapPanel:
+        """The map of parameters."""
+        from app.map_panel import MapPanel
+
+        panel = MapPanel(self.session)
+        self._stops.append(panel.stop)
+        return panel
 
     @property
     def current_curve(self) -> Curve | None:
@@ -220,20 +258,18 @@ class MainWindow(QMainWindow):
 
     def show_report(self) -> None:
         """Open the report on the scheme, and read it with the keyboard."""
-        self.docks.report.show()
-        self.docks.report.raise_()
+        self.docks.open(self.docks.report)
         self.report.page.setFocus()
 
     def show_map(self) -> None:
         """Open the map of parameters."""
-        self.docks.map.show()
-        self.docks.map.raise_()
+        self.docks.open(self.docks.map)
         self.map.chart.setFocus()
 
     def stop(self) -> None:
         """End all work in the background; no worker outlives the window."""
-        self.analysis.stop()
-        self.map.stop()
+        for stop in self._stops:
+            stop()
 
     def show_keys(self) -> None:
         """Show the sheet of keys."""
@@ -276,7 +312,6 @@ class MainWindow(QMainWindow):
         self.scheme.badge.show_finding(finding)
         self.status.show_finding(finding)
         self.canvas.show_notice(finding.notice)
-        self.report.show_finding(finding)
 
     def _show_title(self) -> None:
         # Qt replaces "[*]" by the mark of unsaved changes; doubled it is taken as it stands.
@@ -285,6 +320,7 @@ class MainWindow(QMainWindow):
         self.setWindowModified(self.session.is_modified)
 
     def _complete(self) -> None:
+        self.commands.tint()
         self.docks.plot(self.session)
         if self.shows_slope and self.docks.basis_plot is not None:
             self.docks.basis_plot.show_slope(True)

@@ -1,3 +1,5 @@
+import gc
+
 import pytest
 from PySide6.QtCore import qInstallMessageHandler, qWarning
 
@@ -16,6 +18,20 @@ def as_in_a_terminal():
 def test_a_screenshot_is_silent(qtbot, tmp_path, as_in_a_terminal, capfd):
     assert run(None, tmp_path / "window.png", (900, 600), "light") == 0
     assert capfd.readouterr() == ("", "")
+
+
+def test_the_search_for_garbage_begins_when_all_is_loaded(qtbot, tmp_path, monkeypatch):
+    searched = []
+    monkeypatch.setattr(gc, "freeze", lambda: searched.append("frozen"))
+    monkeypatch.setattr(launch, "_draw", lambda window, *args: window.completed.emit() or 0)
+    gc.disable()
+    try:
+        run(None, tmp_path / "window.png")
+        assert gc.isenabled()
+    finally:
+        gc.enable()
+    run(None, tmp_path / "window.png")
+    assert searched == ["frozen"]  # who has not stopped the search keeps it as it is
 
 
 def test_other_messages_of_qt_are_told(qtbot, tmp_path, as_in_a_terminal, capfd, monkeypatch):

@@ -1,9 +1,13 @@
+import os
+import subprocess
+import sys
+
 import pytest
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QWidget
 
 from app.style import DARK, LIGHT, contrast, palette_of
-from app.theme import Look, blended, window_palette
+from app.theme import Look, blended, styled_application, window_palette
 
 Role = QPalette.ColorRole
 TEXT_CONTRAST = 4.5  # WCAG 2.1, 1.4.3
@@ -43,6 +47,24 @@ def test_a_theme_reaches_every_widget(qtbot, theme, colours):
     qtbot.addWidget(widget)
     assert palette_of(widget) is colours
     look.deleteLater()
+
+
+def test_the_style_is_the_same_on_every_system(qtbot):
+    application = QApplication.instance()
+    application.setStyle("Windows")
+    assert styled_application("ninepoint") is application
+    assert application.style().name() == "fusion"
+    code = (
+        "from app.theme import styled_application;"
+        "application = styled_application('ninepoint');"
+        "print(application.style().name(), application.arguments())"
+    )
+    # A style that the user's environment names must not win either.
+    environment = {**os.environ, "QT_STYLE_OVERRIDE": "windows"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "fusion ['ninepoint']\n"
 
 
 def test_an_unknown_theme_is_refused(qtbot):
