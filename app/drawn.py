@@ -12,19 +12,15 @@ from numpy.typing import NDArray
 from app.camera import Camera
 from app.figure import Figure
 from app.spans import span_vertices
-from core.detail import chord_profile, detailed, span_levels
 from core.document import Curve
-from core.limit import LimitCurve
-from core.mask import Mask
+from core.family import Parameters
+from core.live import LiveCurve
 from core.picking import nearest_place, points_within
 from core.runs import Runs
-from core.view import BUDGET, view
+from core.view import view
 
 TOLERANCE_PX: Final = 0.25
 """Admitted distance between the curve and its drawn chords, in device pixels."""
-
-FINITE_LEVEL: Final = 2
-"""Dyadic level at which a curve is drawn that refinement does not bring to rest."""
 
 MOST_HANDLES: Final = 2000
 """Number of control points in view beyond which they are not shown: they would be a blot."""
@@ -57,6 +53,8 @@ class Drawn:
     ----------
     curve
         The curve of the document.
+    scheme
+        The scheme that draws it.
     figure
         What it is drawn from; it may stand for another curve meanwhile, `limit` calls it back.
     camera
@@ -72,6 +70,7 @@ class Drawn:
     """
 
     curve: Curve
+    scheme: Parameters
     figure: Figure
     camera: Camera
     outline: Runs
@@ -110,8 +109,11 @@ class Drawn:
         return polylines(self.polygon, self.period)
 
     @property
-    def limit(self) -> LimitCurve | None:
-        """The limit curve; None when the scheme has none. It lives: use it at once."""
+    def limit(self) -> LiveCurve | None:
+        """The limit curve, before `Figure.placed`; None when the scheme has none.
+
+        It lives: use it at once.
+        """
         return self._present().limit
 
     @cached_property
@@ -142,11 +144,12 @@ class Drawn:
         if polygon is None:
             return None
         radius = radius_px * self.camera.pixel_mm
-        found = nearest_place(polygon, self.camera.to_mm(pos_px), radius)
+        place = self.camera.to_mm(pos_px)
+        found = nearest_place(polygon, place, radius, self.figure.placed)
         return None if found is None else found[0]
 
     def _present(self) -> Figure:
-        self.figure.follow(self.curve)
+        self.figure.follow(self.curve, self.scheme)
         return self.figure
 
 
@@ -171,21 +174,20 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
     centre = np.array([camera.x_mm, camera.y_mm])
     outline = _NOTHING
     if limit is not None and limit.spans:
-        short = _short(limit, tolerance, centre) if figure.is_proven else None
+        short = _short(figure, tolerance, centre) if figure.is_proven else None
         if short is not None:
             outline = short
         elif figure.outline is not None:
-            outline = view(figure.outline, low, high, tolerance, centre)
-        else:
-            outline = _unproven(limit, tolerance, camera)
+            outline = view(figure.outline, low, high, tolerance, centre, placed=figure.placed)
     polygon = _NOTHING
     if 2 <= figure.curve.count <= SHORT:
         polygon = _corners(figure.curve, centre)
     elif figure.polygon is not None:
-        polygon = view(figure.polygon, low, high, tolerance, centre)
+        polygon = view(figure.polygon, low, high, tolerance, centre, placed=figure.placed)
     flip, shift = (camera.scale, -camera.scale), (camera.width / 2, camera.height / 2)
     return Drawn(
         figure.curve,
+        figure.parameters,
         figure,
         camera,
         replace(outline, vertices=outline.vertices * flip + shift),
@@ -201,15 +203,16 @@ def seen_mm(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return low - reach, high + reach
 
 
-def _short(
-    limit: LimitCurve, tolerance: float, centre: NDArray[np.float64]
-) -> Runs | None:
+def _short(figure: Figure, tolerance: float, centre: NDArray[np.float64]) -> Runs | None:
     """All of a curve of few spans, where that takes few vertices."""
-    found = span_vertices(limit, range(limit.spans), tolerance) if limit.spans <= SHORT else None
+    limit = figure.limit
+    if limit is None or limit.spans > SHORT:
+        return None
+    found = span_vertices(limit, range(limit.spans), tolerance / figure.placed.stretch)
     if found is None or len(found[0]) > SHORT_VERTICES:
         return None
     t, points = found
-    return Runs(points - centre, t, np.array([0, len(t)]), tolerance)
+    return Runs(figure.placed(points) - centre, t, np.array([0, len(t)]), tolerance)
 
 
 def _corners(curve: Curve, centre: NDArray[np.float64]) -> Runs:
@@ -230,25 +233,6 @@ def polylines(runs: Runs, period: int) -> tuple[NDArray[np.float64], ...]:
     return (np.concatenate([parts[-1][:-1], parts[0]]), *parts[1:-1])
 
 
-def grows(mask: Mask) -> bool:
-    """Whether finer chords miss the curve by more: there is nothing then that they converge to."""
-    errors = chord_profile(mask).sum(axis=1)
-    return bool(errors[-1] >= errors[-2] > 0)
-
-
-def _unproven(limit: LimitCurve, tolerance: float, camera: Camera) -> Runs:
-    """Vertices of a curve whose chords have no proven bound: the whole of it, by estimates."""
-    if grows(limit.mask):
-        levels = np.full(limit.spans, FINITE_LEVEL)
-    else:
-        levels = span_levels(limit, tolerance, BUDGET, camera.rectangle_mm())
-    t, vertices = detailed(limit, levels)
-    if limit.closed:
-        t, vertices = np.append(t, limit.spans), np.concatenate([vertices, vertices[:1]])
-    starts = np.array([0, len(t)])
-    return Runs(vertices - (camera.x_mm, camera.y_mm), t, starts, np.inf)
-
-
 def _shown(figure: Figure, camera: Camera) -> NDArray[np.intp] | None:
     """Control points in view, unless their signs would only cover the curve."""
     found = _within(figure, *seen_mm(camera), MOST_HANDLES)
@@ -262,6 +246,6 @@ def _within(
     figure: Figure, low: NDArray[np.float64], high: NDArray[np.float64], most: int | None
 ) -> NDArray[np.intp] | None:
     if figure.curve.count > SHORT and figure.polygon is not None:
-        return points_within(figure.polygon, low, high, most)
+        return points_within(figure.polygon, low, high, most, figure.placed)
     points = figure.curve.points
     return np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))

@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.handles import EdgeHit
+from core.affine import Affine
 from core.document import MAX_COORDINATE_MM, Curve, Document
+from core.errors import NinepointError
 
 
 def counted(verb: str, count: int) -> str:
@@ -38,6 +40,12 @@ def shifted(
     shift = np.asarray(delta_mm, dtype=np.float64)
     for index, members in points.items():
         curve = document.curves[index]
+        if np.size(members) == curve.count:
+            try:
+                document = document.with_curve(index, curve.carried(Affine.shift(shift)))
+                continue
+            except NinepointError:  # only some of the points stop at the edge
+                pass
         places = np.clip(curve.places(members) + shift, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
         document = document.with_curve(index, curve.moved(members, places))
     return document

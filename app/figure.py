@@ -1,4 +1,4 @@
-"""A curve of the document in the form that is drawn from: what moves is followed, not rebuilt."""
+"""A curve of the document in the form that is drawn from: what changes is followed, not rebuilt."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from core.affine import IDENTITY
+from core.blocks import Blocks
 from core.document import Curve
 from core.errors import NoLimitError
-from core.family import Parameters
+from core.family import PRESETS, Parameters
 from core.live import LiveCurve
 from core.pyramid import CurvePyramid, PolygonPyramid
 
@@ -22,6 +24,9 @@ COMPARED: Final = 4096
 class Figure:
     """Limit curve and polygon of a curve, with their levels of detail.
 
+    It keeps the points where they were when it was made; a curve that was carried elsewhere since
+    is seen through ``placed``.
+
     Parameters
     ----------
     curve, parameters
@@ -29,10 +34,10 @@ class Figure:
 
     Attributes
     ----------
-    curve
-        The curve that it stands for now.
-    limit
-        Its limit curve; None when the scheme has none.
+    curve, parameters
+        The curve and the scheme that it stands for now.
+    placed
+        Map from the points of `limit`, `outline` and `polygon` to those of the curve.
 
     Notes
     -----
@@ -41,27 +46,38 @@ class Figure:
     """
 
     def __init__(self, curve: Curve, parameters: Parameters) -> None:
-        self.curve = curve
+        self.curve = self._first = curve
         self.parameters = parameters
-        self.limit: LiveCurve | None = None
-        self._outline: CurvePyramid | None = None
-        self._polygon: PolygonPyramid | None = None
+        self.placed = IDENTITY
         self._pending = _NONE
-        points = curve.points
+        # A scheme that always has a limit; the true one is cast next.
+        self._live = LiveCurve(curve.points, PRESETS["Calm"].mask, curve.is_loop)
+        self._blocks = Blocks(self._live) if self._live.spans else None
+        self._outline: CurvePyramid | None = None
+        self._has_limit = False
+        self._cast()
+
+    def _cast(self) -> None:
+        """Go over to the scheme of the parameters; what depends on it costs nothing of size n."""
+        self._outline, self._has_limit = None, False
         try:
-            self.limit = LiveCurve(points, parameters.mask, curve.is_loop)
-            points = self.limit.control_points
-            if self.limit.spans:
-                self._outline = CurvePyramid(self.limit)
+            self._live.recast(self.parameters.mask)
+            if self._blocks is not None:
+                self._blocks.update_ends()
+                self._outline = CurvePyramid(self._blocks)
         except NoLimitError:
-            # What is not proven is drawn as far as it is there.
-            pass
-        if len(points) > 1:
-            self._polygon = PolygonPyramid(points, curve.is_loop)
+            # What there is of it is drawn: the polygon.
+            return
+        self._has_limit = True
+
+    @property
+    def limit(self) -> LiveCurve | None:
+        """The limit curve, before `placed`; None when the scheme has none."""
+        return self._live if self._has_limit else None
 
     @property
     def outline(self) -> CurvePyramid | None:
-        """Levels of detail of the limit curve; None without a span, or without a proven bound."""
+        """Levels of detail of the limit curve; None without a span, or without a limit."""
         self._settle()
         return self._outline
 
@@ -69,53 +85,59 @@ class Figure:
     def polygon(self) -> PolygonPyramid | None:
         """Levels of detail of the control polygon; None with fewer than two points."""
         self._settle()
-        return self._polygon
+        return None if self._blocks is None else PolygonPyramid(self._blocks)
 
     @property
     def is_proven(self) -> bool:
-        """Whether the limit curve has levels of detail."""
-        return self._outline is not None
+        """Whether the chords of the limit curve have proven bounds."""
+        return self._outline is not None and self._outline.finest is None
 
-    def follow(self, curve: Curve) -> bool:
-        """Stand for another curve that differs by moved points; the cost is that of the moves.
+    def follow(self, curve: Curve, parameters: Parameters) -> bool:
+        """Stand for another curve that differs by moves, or another scheme, or both.
+
+        The cost is that of the moved points; the scheme and a move of all points together cost
+        nothing of their number.
 
         Returns
         -------
         bool
             False if it is not such a curve; then nothing has changed.
         """
-        if curve is self.curve:
-            return True
-        if self.limit is None or not akin(self.curve, curve):
+        if curve is not self.curve and not self._follow_moves(curve):
             return False
-        changed = differing(self.curve, curve)
+        if parameters is not self.parameters:
+            self.parameters = parameters
+            self._cast()
+        return True
+
+    def _follow_moves(self, curve: Curve) -> bool:
+        if not akin(self.curve, curve):
+            return False
+        changed = curve.differences(self.curve)
+        if changed is not None:
+            if curve.placed is not self.curve.placed:
+                self.placed = curve.placed.after(self._first.placed.inverse)
+        elif self.placed is IDENTITY:
+            # Strangers of a few points, such as before and after an edit of most of them.
+            changed = differing(self.curve, curve)
+            self._first = curve if changed is not None else self._first
         if changed is None:
             return False
-        self.limit.move(changed, curve.places(changed))
+        self._live.move(changed, self.placed.inverse(curve.places(changed)))
         self._pending = np.union1d(self._pending, changed)
         self.curve = curve
         return True
 
     def touched(self, indices: NDArray[np.intp]) -> tuple[range, ...]:
         """Spans that read some control points, as `core.live.LiveCurve.move` tells them."""
-        if self.limit is None:
-            return ()
         # A move to where they are changes nothing.
-        return self.limit.move(indices, self.curve.places(indices))
-
-    def edges_at(self, indices: NDArray[np.intp]) -> tuple[range, ...]:
-        """Edges of the polygon that end in some control points."""
-        return () if self._polygon is None else self._polygon.edges_at(indices)
+        return self._live.move(indices, self._live.control_points[indices])
 
     def _settle(self) -> None:
         """Bring the levels of detail up to date."""
         pending, self._pending = self._pending, _NONE
-        if not len(pending):
-            return
-        if self._outline is not None:
-            self._outline.update(self.touched(pending))
-        if self._polygon is not None:
-            self._polygon.update(self.edges_at(pending))
+        if self._blocks is not None:
+            self._blocks.update(pending)
 
 
 def akin(curve: Curve, other: Curve) -> bool:
@@ -126,6 +148,8 @@ def akin(curve: Curve, other: Curve) -> bool:
 def differing(curve: Curve, other: Curve) -> NDArray[np.intp] | None:
     """Indices of the points in which two akin curves may differ; None if that takes too long."""
     changed = curve.differences(other)
-    if changed is None and curve.count <= COMPARED:
-        changed = np.flatnonzero((curve.points != other.points).any(axis=1))
-    return changed
+    if changed is not None and curve.placed is other.placed:
+        return changed
+    if curve.count > COMPARED:
+        return None
+    return np.flatnonzero((curve.points != other.points).any(axis=1))

@@ -15,11 +15,11 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QFont, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
-from app.drawn import FINITE_LEVEL, grows
 from app.guard import guarded
 from app.session import Session
 from app.style import Palette, color, palette_of
 from core.basis import BasicLimitFunction
+from core.chords import COARSE_LEVEL, grows
 from core.continuity import certificate
 from core.document import Document
 from core.errors import NoLimitError
@@ -337,4 +337,4 @@ def described(gibbs: Gibbs) -> str:
 
 def _level(mask: Mask) -> int:
     """Dyadic level at which a function is drawn: a coarse one where finer ones only grow."""
-    return FINITE_LEVEL if grows(mask) else LEVEL
+    return COARSE_LEVEL if grows(mask) else LEVEL

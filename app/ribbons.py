@@ -8,7 +8,6 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from app.camera import Camera
 from app.drawn import Drawn
 from app.style import SIZES
 from core.view import BUDGET
@@ -42,9 +41,7 @@ class Influence:
 
 def ribbons(drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
     """Outlines along a curve, as broad as the curve follows the hand."""
-    if drawn.limit is None:
-        return []
-    limit, indices = drawn.figure.limit, influence.indices
+    limit, indices = drawn.limit, influence.indices
     if limit is None or not limit.spans or not len(indices):
         return []
     if indices.max() >= drawn.curve.count:
@@ -52,17 +49,19 @@ def ribbons(drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
     touched = _stretches(drawn.figure.touched(indices), limit.spans, limit.closed)
     if sum(len(spans) for spans in touched) > BUDGET:
         return []  # So much of the curve follows that a ribbon would only be a blot.
-    pairs = [(spans, _level(limit.span_points(spans, 0), drawn.camera)) for spans in touched]
+    placed = drawn.figure.placed
+    scale = drawn.camera.scale * placed.stretch
+    pairs = [(spans, _level(limit.span_points(spans, 0), scale)) for spans in touched]
     centres = [_joined(limit.span_points(*pair)) for pair in pairs]
     # The curve is linear in its points: what a unit of the hand's way does is its share.
-    places = drawn.curve.places(indices)
+    places = limit.control_points[indices]
     limit.move(indices, places + influence.shares[:, None] * (1.0, 0.0))
     shifted = [_joined(limit.span_points(*pair)) for pair in pairs]
     limit.move(indices, places)
     ribbons: list[NDArray[np.float64]] = []
     for centre, after in zip(centres, shifted, strict=True):
         share = np.abs(after[:, 0] - centre[:, 0])
-        line = drawn.camera.to_pixels(centre)
+        line = drawn.camera.to_pixels(placed(centre))
         strong = np.flatnonzero(share > FAINT)
         ribbons.extend(
             _ribbon(line[stretch], share[stretch])
@@ -72,9 +71,9 @@ def ribbons(drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
     return ribbons
 
 
-def _level(ends: NDArray[np.float64], camera: Camera) -> int:
+def _level(ends: NDArray[np.float64], scale: float) -> int:
     """Dyadic level at which the chords of spans, whose ends are (k, 2, 2), are short enough."""
-    longest = float(np.hypot(*(ends[:, 1] - ends[:, 0]).T).max()) * camera.scale
+    longest = float(np.hypot(*(ends[:, 1] - ends[:, 0]).T).max()) * scale
     wanted = np.ceil(np.log2(max(longest / RIBBON_STEP_PX, 1.0)))
     admitted = np.log2(RIBBON_VERTICES / len(ends))
     return int(np.clip(min(wanted, admitted), 0, 5))

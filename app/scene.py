@@ -210,8 +210,8 @@ class Scene:
     def _traced(self, curve: Curve, parameters: Parameters, before: Drawn | None) -> Drawn:
         """Draw a curve by the figure of the one before, if it can follow, or by a new one."""
         figure = None
-        if before is not None and before.figure.parameters is parameters:
-            figure = before.figure if before.figure.follow(curve) else None
+        if before is not None and before.figure.follow(curve, parameters):
+            figure = before.figure
         if figure is None:
             figure = Figure(curve, parameters)
         elif before is not None and not self._moved:

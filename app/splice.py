@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from app.drawn import SPLICED_FROM, TOLERANCE_PX, Drawn, seen_mm
 from app.figure import differing
 from app.spans import span_vertices
+from core.ranges import around, within
 from core.runs import Runs
 
 MOST_SPANS: Final = 256
@@ -46,6 +47,8 @@ def spliced(base: Drawn, ratio: float) -> Drawn | None:
     limit, curve = figure.limit, figure.curve
     if limit is None or not figure.is_proven or limit.spans < SPLICED_FROM:
         return None
+    if base.scheme is not figure.parameters or base.curve.placed is not curve.placed:
+        return None
     changed = differing(base.curve, curve)
     if changed is None or len(changed) > MOST_SPANS:
         return None
@@ -53,14 +56,16 @@ def spliced(base: Drawn, ratio: float) -> Drawn | None:
     count = sum(len(spans) for spans in touched)
     if count > min(MOST_SPANS, limit.spans // 4) or len(touched) > MOST_RANGES:
         return None
-    tolerance = TOLERANCE_PX / ratio * camera.pixel_mm
+    placed = figure.placed
+    tolerance = TOLERANCE_PX / ratio * camera.pixel_mm / placed.stretch
     outline, polygon = base.outline, base.polygon
     for spans in touched:
         found = span_vertices(limit, spans, tolerance)
         if found is None:
             return None
-        outline = inserted(outline, found[0], camera.to_pixels(found[1]))
-    for edges in figure.edges_at(changed):
+        outline = inserted(outline, found[0], camera.to_pixels(placed(found[1])))
+    edges_at = around(changed, 1, 1)
+    for edges in within(edges_at, limit.spans, limit.closed):
         indices = np.arange(edges.start, edges.stop + 1)
         corners = camera.to_pixels(curve.places(indices % curve.count))
         polygon = inserted(polygon, indices.astype(np.float64), corners)

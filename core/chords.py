@@ -9,6 +9,9 @@ points, ``E(t) = sum_r g_r(t) D2p_r`` (summation by parts, twice), and ``|E| <= 
 differences are at most ``rho_L max |D2p|``; rho_L is the norm of the L-fold refinement of second
 differences, whose symbol is ``a(z) / (1+z)^2``.
 
+The same holds for the difference between the curve and its control polygon, with p_i at t = i, as
+all schemes of the family reproduce lines (theory, section 5).
+
 The sup is proven: between the samples of level m the curve differs from the chords by at most
 ``c rho_m``, so ``c <= c_m + c rho_m`` with the largest sample ``c_m``, hence
 ``c <= c_m / (1 - rho_m)``. Norms and samples are floats; their rounding, some 1e-13 relative, is
@@ -18,6 +21,7 @@ covered by the factor `ROUNDING`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
@@ -33,6 +37,12 @@ ROUNDING: Final = 1 + 1e-10
 
 _SAMPLE_LEVELS: Final = (4, 6, 8, 10)
 """Levels of the samples, tried in turn until refinement halves the second differences."""
+
+_FINE: Final = 6
+"""Dyadic level at which a curve is drawn that seems to converge, though it is not proven."""
+
+COARSE_LEVEL: Final = 2
+"""Dyadic level at which a curve is drawn that refinement does not bring to rest."""
 
 
 @lru_cache(maxsize=MEMORY)
@@ -95,6 +105,71 @@ def size_constant(mask: Mask) -> float:
     return (largest + rest) * ROUNDING
 
 
+@dataclass(frozen=True)
+class Bounds:
+    """Constants c of bounds ``c max |D2p|`` on a span, over the second differences that it reads.
+
+    Attributes
+    ----------
+    chord
+        Of the distance of the curve from the chord between the ends of the span.
+    polygon
+        Of its distance from the edge of the control polygon.
+    knot
+        Of the distance of its ends from the control points there.
+    finest
+        None for a curve whose refinement is proven to converge. Else the bounds are those of the
+        polyline through its points at this dyadic level, whatever they would do beyond.
+    """
+
+    chord: float
+    polygon: float
+    knot: float
+    finest: int | None
+
+
+@lru_cache(maxsize=MEMORY)
+def bounds(mask: Mask) -> Bounds:
+    """Bounds of the limit curve; where none are proven, those of a finite level.
+
+    Raises
+    ------
+    NoLimitError
+        If the scheme has no unique limit, so that there are no points at any level.
+    """
+    basis = BasicLimitFunction(mask)
+    knots = basis.table(0)[:-1, 0]
+    apart = knots - np.eye(len(knots))[mask.end - 1]  # row r weighs p_{i + r + 1 - end}
+    knot = _largest(apart[:, None]) * ROUNDING
+    try:
+        chord = chord_constant(mask)
+    except NoLimitError:
+        finest = COARSE_LEVEL if grows(mask) else _FINE
+        samples = basis.table(finest)
+        chord = _largest(_off_chords(samples)) * ROUNDING
+        return Bounds(chord, _largest(_off_polygon(samples, mask)) * ROUNDING, knot, finest)
+    level = _SAMPLE_LEVELS[0]
+    rest = chord * second_difference_norm(mask, level)
+    polygon = (_largest(_off_polygon(basis.table(level), mask)) + rest) * ROUNDING
+    return Bounds(chord, polygon, knot, None)
+
+
+@lru_cache(maxsize=MEMORY)
+def grows(mask: Mask) -> bool:
+    """Whether finer chords miss the curve by more: there is nothing then that they come closer to.
+
+    That is seen, not proven.
+    """
+    table = BasicLimitFunction(mask).table
+    errors = []
+    for level in (_FINE - 2, _FINE - 1):
+        samples = table(level + 1)
+        nodes = np.hstack([samples[:, ::2], _next_start(samples)])
+        middles = samples[:, 1::2] - (nodes[:, :-1] + nodes[:, 1:]) / 2
+        errors.append(_largest(middles))
+    return errors[1] >= errors[0] > 0
+
+
 def _constant(mask: Mask, table: Callable[[int], NDArray[np.float64]]) -> float:
     """Constant for an interval whose weights of the control points, at samples, are the table."""
     for level in _SAMPLE_LEVELS:
@@ -106,12 +181,32 @@ def _constant(mask: Mask, table: Callable[[int], NDArray[np.float64]]) -> float:
             "No deviation can be proven for these parameters: the curve may not converge."
             " Bring alpha, beta and gamma closer to a preset."
         )
-    samples = table(level)
-    start = samples[:, :1]
-    # The points that the right end reads lie one place further.
-    end = np.vstack([np.zeros((1, 1)), start[:-1]])
-    tau = np.arange(2**level) / 2**level
-    error = samples - (1 - tau) * start - tau * end
+    return _largest(_off_chords(table(level))) / (1 - growth) * ROUNDING
+
+
+def _off_chords(samples: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights of the control points in the distance of samples (r, m) from the chord."""
+    tau = np.arange(samples.shape[1]) / samples.shape[1]
+    error: NDArray[np.float64] = samples - (1 - tau) * samples[:, :1] - tau * _next_start(samples)
+    return error
+
+
+def _off_polygon(samples: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
+    """The same for the distance of samples of a span from the edge of the polygon."""
+    tau = np.arange(samples.shape[1]) / samples.shape[1]
+    error = samples.copy()
+    # Row r weighs p_{i + r + 1 - end}.
+    error[mask.end - 1] -= 1 - tau
+    error[mask.end] -= tau
+    return error
+
+
+def _next_start(samples: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Weights at the end of the interval: its points are read one place further on."""
+    return np.vstack([np.zeros((1, 1)), samples[:-1, :1]])
+
+
+def _largest(error: NDArray[np.float64]) -> float:
+    """Largest sum of the weights of second differences, of errors that vanish on lines."""
     kernel = np.cumsum(np.cumsum(error, axis=0), axis=0)[:-2]
-    largest = float(np.abs(kernel).sum(axis=0).max())
-    return largest / (1 - growth) * ROUNDING
+    return float(np.abs(kernel).sum(axis=0).max())

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from core.affine import IDENTITY, Affine
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
@@ -23,10 +25,26 @@ _MOVED_SHARE: Final = 1 / 16
 
 
 @dataclass(frozen=True, eq=False)
-class _Moves:
-    """What a curve has different from an array of points: rising indices and new positions."""
+class _Base:
+    """Points that several curves have in common."""
 
-    base: NDArray[np.float64]
+    points: NDArray[np.float64]
+
+    @cached_property
+    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lower and upper corner; there must be a point."""
+        return self.points.min(axis=0), self.points.max(axis=0)
+
+
+@dataclass(frozen=True, eq=False)
+class _Moves:
+    """What a curve has different from the points of its base.
+
+    All of them are ``placed``; then those at rising ``indices`` have other ``positions``.
+    """
+
+    base: _Base
+    placed: Affine
     indices: NDArray[np.intp]
     positions: NDArray[np.float64]
 
@@ -53,9 +71,9 @@ class Curve:
 
     Notes
     -----
-    A curve that comes from `moved` keeps the other curve and what is different, so that an event
-    of a drag costs what moves and not what there is; its ``points`` are made when they are asked
-    for. Who draws it asks for `differences` and `places` instead.
+    A curve that comes from `moved` or `carried` keeps the other curve and what is different, so
+    that an event of a drag costs what moves and not what there is; its ``points`` are made when
+    they are asked for. Who draws it asks for `placed`, `differences` and `places` instead.
     """
 
     points: NDArray[np.float64]
@@ -73,14 +91,14 @@ class Curve:
         points.flags.writeable = False
         object.__setattr__(self, "points", points)
         none = np.zeros(0, dtype=np.intp)
-        object.__setattr__(self, "_moves", _Moves(points, none, np.zeros((0, 2))))
+        object.__setattr__(self, "_moves", _Moves(_Base(points), IDENTITY, none, np.zeros((0, 2))))
 
     def __getattr__(self, name: str) -> NDArray[np.float64]:
         # Reached only where an attribute is missing: the points of a moved curve, once.
         if name != "points" or "_moves" not in vars(self):
             raise AttributeError(name)
         moves = self._moves
-        points = moves.base.copy()
+        points = moves.placed(moves.base.points)
         points[moves.indices] = moves.positions
         points.flags.writeable = False
         object.__setattr__(self, "points", points)
@@ -89,7 +107,12 @@ class Curve:
     @property
     def count(self) -> int:
         """Number of control points."""
-        return len(self._moves.base)
+        return len(self._moves.base.points)
+
+    @property
+    def placed(self) -> Affine:
+        """Map by which the points lie elsewhere than those that `differences` compares with."""
+        return self._moves.placed
 
     @property
     def is_loop(self) -> bool:
@@ -119,15 +142,39 @@ class Curve:
         together = np.concatenate([before.indices, chosen])[::-1]
         changed, last = np.unique(together, return_index=True)
         places = np.concatenate([before.positions, places])[::-1][last]
-        curve = object.__new__(Curve)
-        moves = _Moves(before.base, changed, places)
-        vars(curve).update(closed=self.closed, name=self.name, _moves=moves)
+        curve = self._with(_Moves(before.base, before.placed, changed, places))
         return replace(curve) if len(changed) > _MOVED_SHARE * count else curve
+
+    def carried(self, placed: Affine) -> Curve:
+        """Copy with all points carried by an affine map; its cost does not depend on their number.
+
+        Raises
+        ------
+        NinepointError
+            If the map leads beyond `MAX_COORDINATE_MM`.
+        """
+        if not self.count:
+            return self
+        before = self._moves
+        whole, positions = placed.after(before.placed), placed(before.positions)
+        corners = np.concatenate([*whole.box(*before.base.box), positions.ravel()])
+        if not np.abs(corners).max() <= MAX_COORDINATE_MM:
+            raise NinepointError(
+                f"{self.name!r} would leave the sheet: coordinates are at most"
+                f" {MAX_COORDINATE_MM:g} mm."
+            )
+        return self._with(replace(before, placed=whole, positions=positions))
+
+    def _with(self, moves: _Moves) -> Curve:
+        curve = object.__new__(Curve)
+        vars(curve).update(closed=self.closed, name=self.name, _moves=moves)
+        return curve
 
     def differences(self, other: Curve) -> NDArray[np.intp] | None:
         """Indices of the points that may lie elsewhere in another curve, rising.
 
-        None if the curves have no common origin that tells it without comparing all points.
+        That is, elsewhere than where `placed` puts both. None if the curves have no common origin
+        that tells it without comparing all points.
         """
         if self._moves.base is not other._moves.base:
             return None
@@ -137,7 +184,7 @@ class Curve:
         """Positions of the points at ``indices`` (k,), shape (k, 2)."""
         chosen = np.asarray(indices, dtype=np.intp)
         moves = self._moves
-        positions: NDArray[np.float64] = moves.base[chosen]
+        positions: NDArray[np.float64] = moves.placed(moves.base.points[chosen])
         if len(moves.indices):
             found = np.minimum(np.searchsorted(moves.indices, chosen), len(moves.indices) - 1)
             moved = moves.indices[found] == chosen

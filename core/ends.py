@@ -21,7 +21,12 @@ def reach(mask: Mask) -> tuple[int, int]:
     return mask.end - 1, -mask.start
 
 
-def extended(points: NDArray[np.float64], mask: Mask, closed: bool) -> NDArray[np.float64]:
+def extended(
+    points: NDArray[np.float64],
+    mask: Mask,
+    closed: bool,
+    sides: tuple[int, int] | None = None,
+) -> NDArray[np.float64]:
     """Polygon with the phantom points that make it endless, as far as the curve reads them.
 
     Parameters
@@ -35,24 +40,26 @@ def extended(points: NDArray[np.float64], mask: Mask, closed: bool) -> NDArray[n
         reflection ``p_{-j} = 2 e_0 - p_j``, with the end points ``e_0, e_{n-1}`` in place of
         ``p_0, p_{n-1}`` such that the limit curve starts at ``p_0`` and ends at ``p_{n-1}``. For a
         symmetric mask they are those points themselves.
+    sides
+        Numbers ``left, right`` of phantom points, at least those of ``reach(mask)``, which they
+        are by default.
 
     Returns
     -------
     ndarray
-        Points ``p_{-left}, ...`` with ``left, right = reach(mask)``; shape (n + left + right, d)
-        when open, one more when closed.
+        Points ``p_{-left}, ...``; shape (n + left + right, d) when open, one more when closed.
 
     Raises
     ------
     NoLimitError
         For an asymmetric mask without a unique limit, whose ends cannot be placed.
     """
-    left, right = reach(mask)
+    left, right = sides or reach(mask)
     count = len(points)
-    if count >= far(mask):
+    if count >= far((left, right)):
         endless = np.empty((left + count + right + closed, points.shape[1]))
         endless[left : left + count] = points
-        write_ends(endless, points, mask, closed)
+        write_ends(endless, points, mask, closed, (left, right))
         return endless
     if closed:
         return points[np.arange(-left, count + right + 1) % count]
@@ -65,16 +72,21 @@ def extended(points: NDArray[np.float64], mask: Mask, closed: bool) -> NDArray[n
     return _reflected(polygon, left, right)
 
 
-def far(mask: Mask) -> int:
+def far(sides: tuple[int, int]) -> int:
     """Number of points from which on the two ends of an open polygon do not see each other.
 
-    The phantom points and the centre of an end are made of fewer points than half of it.
+    The phantom points and the centre of an end, with ``sides`` as in `extended`, are made of fewer
+    points than half of it.
     """
-    return 2 * (max(reach(mask)) + 1)
+    return 2 * (max(sides) + 1)
 
 
 def write_ends(
-    endless: NDArray[np.float64], points: NDArray[np.float64], mask: Mask, closed: bool
+    endless: NDArray[np.float64],
+    points: NDArray[np.float64],
+    mask: Mask,
+    closed: bool,
+    sides: tuple[int, int],
 ) -> None:
     """Write the phantom points, and the centres of the reflections, of a long polygon.
 
@@ -86,10 +98,10 @@ def write_ends(
         The array of `extended`, written in place; between its ends it is not touched.
     points
         Control points, at least `far` of them.
-    mask, closed
+    mask, closed, sides
         As in `extended`.
     """
-    left, right = reach(mask)
+    left, right = sides
     count = len(points)
     if closed:
         endless[:left] = points[count - left :]
@@ -108,7 +120,7 @@ def end_points(points: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
     is well conditioned in the useful range (1.38 at (3/10, -3/5, -1/5)); where it is singular, far
     outside, the end points stay where they are and the curve does not reach them.
     """
-    if len(points) >= far(mask):
+    if len(points) >= far(reach(mask)):
         start, end = _centre_weights(mask)
         return np.stack([start @ points[: len(start)], end @ points[-len(end) :]])
     return _solved_centres(points, mask)
@@ -117,7 +129,7 @@ def end_points(points: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
 @lru_cache(maxsize=MEMORY)
 def _centre_weights(mask: Mask) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Weights of the first points in ``e_0``, and of the last ones in ``e_{n-1}``, far apart."""
-    size = far(mask)
+    size = far(reach(mask))
     start, end = _solved_centres(np.eye(size), mask)
     return start[: size // 2], end[size // 2 :]
 

@@ -60,16 +60,21 @@ class LimitCurve:
             raise ValueError("control points must be finite")
         polygon.flags.writeable = False
         self.control_points = polygon
-        self.mask = mask
         self.closed = closed
         self.spans = len(polygon) if closed else max(len(polygon) - 1, 0)
         """Number of unit intervals of t: n when closed, n - 1 when open."""
-        self._basis = BasicLimitFunction(mask)
         endless = extended(polygon, mask, closed) if len(polygon) else polygon
-        self._coordinates = np.ascontiguousarray(endless.T)
-        self._coordinates.flags.writeable = False
-        # One view for the life of the curve: to make it costs more than a small product.
-        self._windows = _windows(self._coordinates, mask.end - mask.start + 1, self.spans)
+        coordinates = np.ascontiguousarray(endless.T)
+        coordinates.flags.writeable = False
+        self._read(coordinates, mask)
+
+    def _read(self, coordinates: NDArray[np.float64], mask: Mask) -> None:
+        """Evaluate from now on the endless polygon (2, m), as far as the scheme reads it."""
+        self.mask = mask
+        self._basis = BasicLimitFunction(mask)
+        self._coordinates = coordinates
+        # One view for many products: to make it costs more than a small one.
+        self._windows = _windows(coordinates, mask.end - mask.start + 1, self.spans)
 
     @property
     def endless_points(self) -> NDArray[np.float64]:

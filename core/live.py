@@ -1,4 +1,4 @@
-"""A limit curve whose control points move, one event after the other."""
+"""A limit curve whose control points move, one event after the other, and whose scheme changes."""
 
 from __future__ import annotations
 
@@ -12,17 +12,23 @@ from core.limit import LimitCurve
 from core.mask import Mask
 from core.ranges import around, within
 
+SIDE: Final = 8
+"""Phantom points that are kept at each end: what the widest masks of the family read."""
+
+_SIDES: Final = (SIDE, SIDE)
+
 _MANY_SHARE: Final = 1 / 16
 """Share of the points from which on all spans count as touched: sorting would cost more."""
 
 
 class LiveCurve(LimitCurve):
-    """A `LimitCurve` that owns its control points and lets them move.
+    """A `LimitCurve` that owns its control points and lets them, and the scheme, change.
 
     It keeps one array of the polygon with its phantom points, and one view of its windows. A move
-    writes the moved points into it, and what follows of them at the ends; neither the time nor the
-    memory depends on the number of points. Spans are evaluated from that array, so nothing adds
-    up: after any number of moves the curve is that of its control points, to rounding.
+    writes the moved points into it, and what follows of them at the ends; a change of the scheme
+    writes the ends alone. Neither the time nor the memory depends on the number of points. Spans
+    are evaluated from that array, so nothing adds up: after any number of moves the curve is that
+    of its control points, to rounding.
 
     Parameters
     ----------
@@ -31,15 +37,29 @@ class LiveCurve(LimitCurve):
 
     Notes
     -----
-    `control_points` and `endless_points` are read-only views of what moves.
+    `control_points`, `endless_points` and `padded` are read-only views of what moves.
     """
 
     def __init__(self, points: ArrayLike, mask: Mask, closed: bool) -> None:
         super().__init__(points, mask, closed)
         self._points, self.control_points = _owned(self.control_points)
-        self._store, self._coordinates = _owned(self._coordinates)
-        self._reach = reach(mask)
-        self._far = far(mask)
+        store = self.control_points
+        if len(store):
+            store = extended(store, mask, closed, _SIDES)
+        self._store, self.padded = _owned(np.ascontiguousarray(store.T))
+        self._show(mask)
+
+    def recast(self, mask: Mask) -> None:
+        """Draw the same control points by another scheme.
+
+        Raises
+        ------
+        NoLimitError
+            If the scheme has no unique limit; then nothing has changed.
+        """
+        if self.spans:
+            self._write_ends(mask)
+        self._show(mask)
 
     def move(self, indices: ArrayLike, positions: ArrayLike) -> tuple[range, ...]:
         """Put control points at other places.
@@ -58,22 +78,21 @@ class LiveCurve(LimitCurve):
             (the curve changes for ``|t - i| < 17/2``), and those that read a moved phantom point.
         """
         moved = np.asarray(indices, dtype=np.intp)
-        points, store = self._points, self._store
+        points = self._points
         points[moved] = positions
-        count = len(points)
-        if count < self._far:
-            store[:] = extended(points, self.mask, self.closed).T
-            return (range(self.spans),) if self.spans and moved.size else ()
         if moved.size == 0:
             return ()
-        left, right = self._reach
-        store[:, left + moved] = points[moved].T
-        margin = self._far // 2
-        at_start, at_end = moved.min() < margin, moved.max() >= count - margin
+        count = len(points)
+        if count < far(_SIDES):
+            self._write_ends(self.mask)
+            return (range(self.spans),) if self.spans else ()
+        self._store[:, SIDE + moved] = points[moved].T
+        at_start, at_end = moved.min() <= SIDE, moved.max() >= count - 1 - SIDE
         if at_start or at_end:
-            write_ends(store.T, points, self.mask, self.closed)
+            self._write_ends(self.mask)
         if moved.size > _MANY_SHARE * count:
             return (range(self.spans),)
+        left, right = reach(self.mask)
         touched = around(moved, 1 + right, left + 1)
         if not self.closed:
             # A centre moves with the points that it is made of, and reflects the spans' windows.
@@ -82,6 +101,19 @@ class LiveCurve(LimitCurve):
             if at_end:
                 touched.append((count - 2 - right, self.spans))
         return within(touched, self.spans, self.closed)
+
+    def _write_ends(self, mask: Mask) -> None:
+        points, store = self._points, self._store
+        if len(points) < far(_SIDES):
+            store[:] = extended(points, mask, self.closed, _SIDES).T
+        else:
+            write_ends(store.T, points, mask, self.closed, _SIDES)
+
+    def _show(self, mask: Mask) -> None:
+        """Let the curve read as much of the store as a scheme needs."""
+        left, right = reach(mask)
+        store = self.padded
+        self._read(store[:, SIDE - left : store.shape[1] - SIDE + right], mask)
 
 
 def _owned(array: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -7,7 +7,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.pyramid import FAN, PolygonPyramid, Pyramid, contained, meets
+from core.affine import IDENTITY, Affine
+from core.blocks import FAN
+from core.pyramid import PolygonPyramid, Pyramid, contained, meets
 from core.view import view
 
 _FINENESS: Final = 32
@@ -19,6 +21,7 @@ def points_within(
     lower: NDArray[np.float64],
     upper: NDArray[np.float64],
     most: int | None = None,
+    placed: Affine = IDENTITY,
 ) -> NDArray[np.intp] | None:
     """Indices of the control points in a rectangle, rising.
 
@@ -31,17 +34,21 @@ def points_within(
     most
         Where a sign of each point would only be a blot: the number beyond which they are not
         sought.
+    placed
+        Where the polygon lies, as in `core.view.view`. If it is turned, points beside the rectangle
+        may count for ``most``.
 
     Returns
     -------
     ndarray or None
         Shape (k,); None if there are more than ``most``.
     """
-    limits = np.concatenate([upper, -np.asarray(lower)])
+    low, high = placed.inverse.box(np.asarray(lower), np.asarray(upper))
+    limits = np.concatenate([high, -low])
     points = polygon.points
-    children = np.arange(polygon.boxes[-1].shape[1])
-    for level in range(len(polygon.boxes) - 1, -1, -1):
-        boxes = polygon.boxes[level][:, children]
+    children = polygon.nodes(polygon.depth - 1)
+    for level in range(polygon.depth - 1, -1, -1):
+        boxes = polygon.boxes(level, children)
         nodes = children[meets(boxes, limits)]
         if most is not None:
             # All but the last node of a level are full.
@@ -53,13 +60,14 @@ def points_within(
     places = children[children < len(points)]
     if not polygon.closed and len(places) and places[-1] == polygon.spans - 1:
         places = np.append(places, polygon.spans)
-    inside = (points[places] >= lower) & (points[places] <= upper)
+    seen = placed(points[places])
+    inside = (seen >= lower) & (seen <= upper)
     found: NDArray[np.intp] = places[inside.all(axis=1)]
     return None if most is not None and len(found) > most else found
 
 
 def nearest_point(
-    polygon: PolygonPyramid, place: NDArray[np.float64], radius: float
+    polygon: PolygonPyramid, place: NDArray[np.float64], radius: float, placed: Affine = IDENTITY
 ) -> tuple[int, float] | None:
     """Nearest control point within a radius, and its distance; of equals the last one.
 
@@ -71,18 +79,20 @@ def nearest_point(
         Where it is sought, shape (2,).
     radius
         Farthest admitted distance, in the unit of the points.
+    placed
+        As in `points_within`.
     """
-    near = points_within(polygon, place - radius, place + radius)
+    near = points_within(polygon, place - radius, place + radius, placed=placed)
     if near is None or not len(near):
         return None
-    distances = np.hypot(*(polygon.points[near] - place).T)[::-1]
+    distances = np.hypot(*(placed(polygon.points[near]) - place).T)[::-1]
     index = int(distances.argmin())
     distance = float(distances[index])
     return (int(near[len(near) - 1 - index]), distance) if distance <= radius else None
 
 
 def nearest_place(
-    pyramid: Pyramid, place: NDArray[np.float64], radius: float
+    pyramid: Pyramid, place: NDArray[np.float64], radius: float, placed: Affine = IDENTITY
 ) -> tuple[float, float] | None:
     """Parameter t of the nearest place on a curve, or polygon, within a radius; and its distance.
 
@@ -90,7 +100,7 @@ def nearest_place(
     ----------
     pyramid
         The curve, or the polygon, whose t is i at point i.
-    place, radius
+    place, radius, placed
         As in `nearest_point`; radius > 0.
 
     Returns
@@ -100,7 +110,7 @@ def nearest_place(
         linear along a chord.
     """
     tolerance = radius / _FINENESS
-    seen = view(pyramid, place - radius, place + radius, tolerance, place)
+    seen = view(pyramid, place - radius, place + radius, tolerance, place, placed=placed)
     if not len(seen.vertices):
         return None
     x, y = seen.vertices.T

@@ -1,92 +1,71 @@
-"""Boxes and chord deviations over blocks of spans, so that a million spans are not looked at.
+"""Levels of detail of a limit curve, and of its polygon, so that a million spans are not looked at.
 
 Notes
 -----
-A node of level k stands for 8^k consecutive spans. It holds the points of the curve at its ends, a
-box that the curve does not leave, and its *deviation*: a bound of the distance of the curve from
-the chord between the two ends. The control polygon has a pyramid as well; its spans are straight.
-
-On one span each coordinate stays within ``c max |D2p|`` of that of the chord, with its own second
-differences and c from `core.chords`, proven. So on a block of 8 spans the curve stays within the
-largest of these bounds of the polyline of the 9 ends; and a polyline stays as near to a segment as
-its vertices do, since the distance from a convex set is convex. A node of 8 nodes follows in the
-same way: the largest deviation of the children, plus the largest distance of their ends from the
-chord. All bounds hold up to the rounding of the points.
+Both stand on the same `core.blocks.Blocks` of the control polygon. With c max |D2p| for the largest
+distance of the curve from its polygon, each coordinate with its own second differences D2p, and
+e max |D2p| for that of the curve's points at whole t from the control points (`core.chords`), the
+boxes of the curve are those of the polygon, wider by c max |D2p|. And where the polygon keeps
+within d of the chord between its ends, the curve keeps within d + (c + e) max |D2p| of the chord
+between its own. All bounds hold up to the rounding of the points.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
-from typing import Final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from core.basis import BasicLimitFunction
-from core.chords import chord_constant
-from core.limit import LimitCurve
-from core.ranges import around, within
-from core.runs import PARTS
-
-FAN: Final = PARTS
-"""Children of a node. Two or four at a time are joined again when the detail is chosen."""
-
-_TOP: Final = 64
-"""Nodes that one vector operation looks at as fast as at one."""
-
-_CHUNK: Final = 1024
-"""Blocks that are computed at a time: what they need stays in the cache."""
+from core.blocks import FAN, Blocks, bends_of
+from core.chords import bounds
 
 
 class Pyramid(ABC):
-    """Levels of detail above consecutive spans.
+    """What is known of consecutive spans, in blocks of 8, 64, ... of them.
 
     Parameters
     ----------
-    spans
-        Number of spans, at least 1.
-
-    Attributes
-    ----------
-    ends
-        For each level from 1 on, shape (2, m + 1): points at the ends of the nodes.
-    boxes
-        Shape (4, m) each: lower x, lower y, and the negatives of upper x, upper y.
-    deviations
-        Shape (m,) each.
-
-    Notes
-    -----
-    m is a multiple of 8, except at the top; nodes beyond the end are empty: no rectangle meets
-    their boxes. What the spans are, a derived class tells by `spans_of`.
+    blocks
+        The control polygon's levels of detail.
     """
 
-    def __init__(self, spans: int) -> None:
-        self.spans = spans
-        self.ends: list[NDArray[np.float64]] = []
-        self.boxes: list[NDArray[np.float64]] = []
-        self.deviations: list[NDArray[np.float64]] = []
-        count = -(-spans // FAN)
-        while True:
-            is_top = count <= _TOP
-            room = count if is_top else -(-count // FAN) * FAN
-            self.ends.append(np.zeros((2, room + 1)))
-            self.boxes.append(np.full((4, room), np.inf))
-            self.deviations.append(np.zeros(room))
-            if is_top:
-                break
-            count = room // FAN
-        self.update((range(spans),))
+    def __init__(self, blocks: Blocks) -> None:
+        self.blocks = blocks
+        self.spans = blocks.spans
+        self.depth = len(blocks.boxes)
+        """Number of levels; nodes of level k, from 0 on, stand for 8^(k+1) spans."""
+
+    def nodes(self, level: int) -> NDArray[np.intp]:
+        """All nodes of a level."""
+        return np.arange(self.blocks.boxes[level].shape[1])
+
+    @abstractmethod
+    def boxes(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Boxes of some nodes, shape (4, m): lower corners, and the negatives of the upper."""
+
+    def deviations(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
+        """How far the polygon leaves the chords of some nodes, shape (m,)."""
+        deviations: NDArray[np.float64] = self.blocks.deviations[level][nodes]
+        return deviations
+
+    @abstractmethod
+    def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
+        """How much further this may leave its own chords, between its own ends, shape (m,)."""
+
+    @abstractmethod
+    def places(self, indices: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Its exact points at t = 0, 1, ..., spans: shape (2, ...) for indices (...)."""
 
     @abstractmethod
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Ends of the spans of some blocks, and how far each coordinate can leave the chord.
+        """Exact ends of the spans of some blocks, and how far each coordinate leaves the chord.
 
         Parameters
         ----------
         blocks
-            Rising indices of nodes of level 1, shape (m,).
+            Rising indices of nodes of level 0, shape (m,).
 
         Returns
         -------
@@ -94,80 +73,70 @@ class Pyramid(ABC):
             Shapes (2, m, 9) and (2, m, 8). Spans beyond the end of the curve are points.
         """
 
-    def update(self, touched: Iterable[range]) -> None:
-        """Take over spans that have changed; the cost is that of the changed blocks.
-
-        Parameters
-        ----------
-        touched
-            Ranges of spans, as `core.live.LiveCurve.move` returns them.
-        """
-        nodes = _unique([np.arange(r.start // FAN, -(-r.stop // FAN)) for r in touched])
-        for begin in range(0, len(nodes), _CHUNK):
-            self._write_blocks(nodes[begin : begin + _CHUNK])
-        for level in range(1, len(self.ends) if len(nodes) else 0):
-            nodes = _unique([nodes // FAN])
-            self._write_nodes(level, nodes)
-
-    def _write_blocks(self, blocks: NDArray[np.intp]) -> None:
-        ends, margins = self.spans_of(blocks)
-        margins = margins.max(axis=2)
-        largest = np.hypot(margins[0], margins[1])
-        self._write_ends(0, blocks, ends)
-        self.boxes[0][:, blocks] = boxes_of(ends) - np.concatenate([margins, margins])
-        self.deviations[0][blocks] = largest + from_chords(ends).max(axis=1)
-
-    def _write_nodes(self, level: int, nodes: NDArray[np.intp]) -> None:
-        children = (FAN * nodes[:, None] + np.arange(FAN)).ravel()
-        ends = children_ends(self.ends[level - 1], nodes)
-        largest = folded(np.maximum, self.deviations[level - 1][children])
-        self._write_ends(level, nodes, ends)
-        self.boxes[level][:, nodes] = folded(np.minimum, self.boxes[level - 1][:, children])
-        self.deviations[level][nodes] = largest + from_chords(ends).max(axis=1)
-
-    def _write_ends(self, level: int, nodes: NDArray[np.intp], ends: NDArray[np.float64]) -> None:
-        held = self.ends[level]
-        held[:, nodes] = ends[:, :, 0]
-        held[:, nodes + 1] = ends[:, :, -1]
-        after = int(nodes[-1]) + 1
-        if after * FAN ** (level + 1) >= self.spans:
-            held[:, after + 1 :] = held[:, after : after + 1]  # empty nodes are points
-
 
 class CurvePyramid(Pyramid):
-    """The levels of detail of a limit curve.
+    """The levels of detail of the limit curve.
 
     Parameters
     ----------
-    curve
-        A limit curve with at least one span. If its points move (`core.live.LiveCurve.move`),
-        `update` has to follow.
+    blocks
+        Those of its polygon. After a change of the scheme a new pyramid is due; to make it takes
+        no time.
+
+    Attributes
+    ----------
+    finest
+        None, or the dyadic level at which the curve is drawn because no convergence is proven.
 
     Raises
     ------
     NoLimitError
-        If no chord bound is proven for the scheme.
+        If the scheme has no unique limit.
     """
 
-    def __init__(self, curve: LimitCurve) -> None:
-        mask = curve.mask
-        self.curve = curve
-        self._chord_constant = chord_constant(mask)
-        self._bends = mask.end - mask.start - 1
+    def __init__(self, blocks: Blocks) -> None:
+        super().__init__(blocks)
+        self.curve = blocks.curve
+        mask = self.curve.mask
+        known = bounds(mask)
+        self.finest = known.finest
+        self._chord, self._polygon, self._knot = known.chord, known.polygon, known.knot
+        self._read = mask.end - mask.start - 1
+        self._weights = BasicLimitFunction(mask).table(0)[:-1, 0]
         # Column s of this matrix makes the curve point s steps on from the points of a block.
-        weights = BasicLimitFunction(mask).table(0)[:-1, 0]
-        self._limits = np.zeros((len(weights) + FAN, FAN + 1))
+        self._limits = np.zeros((len(self._weights) + FAN, FAN + 1))
         for s in range(FAN + 1):
-            self._limits[s : s + len(weights), s] = weights
-        super().__init__(curve.spans)
+            self._limits[s : s + len(self._weights), s] = self._weights
+
+    def boxes(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
+        """See `Pyramid.boxes`."""
+        margins = self._polygon * self.blocks.bends[level][:, nodes]
+        boxes: NDArray[np.float64] = self.blocks.boxes[level][:, nodes]
+        boxes[:2] -= margins
+        boxes[2:] -= margins
+        return boxes
+
+    def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
+        """See `Pyramid.slack`."""
+        x, y = self.blocks.bends[level][:, nodes]
+        slack: NDArray[np.float64] = np.sqrt(x * x + y * y)
+        slack *= self._polygon + self._knot
+        return slack
+
+    def places(self, indices: NDArray[np.intp]) -> NDArray[np.float64]:
+        """See `Pyramid.places`."""
+        coordinates = self.curve.endless_points.T
+        held = coordinates[:, indices.ravel() + np.arange(len(self._weights))[:, None]]
+        places: NDArray[np.float64] = self._weights @ held
+        return places.reshape(2, *indices.shape)
 
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Curve points at the ends of spans, and the proven bounds; see `Pyramid.spans_of`."""
+        """See `Pyramid.spans_of`."""
         coordinates = self.curve.endless_points.T
         places = FAN * blocks[:, None] + np.arange(len(self._limits))
         held = coordinates[:, np.minimum(places, coordinates.shape[1] - 1)]
         ends = held @ self._limits
-        margins = self._chord_constant * running_max(bends_of(held), self._bends)
+        margins = self._chord * running_max(bends_of(held), self._read)
         beyond = self.spans - FAN * int(blocks[-1])
         if beyond < FAN:
             ends[:, -1, beyond:] = ends[:, -1, beyond : beyond + 1]
@@ -176,87 +145,37 @@ class CurvePyramid(Pyramid):
 
 
 class PolygonPyramid(Pyramid):
-    """The levels of detail of a control polygon; its spans are the edges.
+    """The levels of detail of the control polygon itself; its spans are the edges."""
 
-    Parameters
-    ----------
-    points
-        Control points, shape (n, 2), at least 2. They are not copied: when they change in place,
-        `update` has to follow.
-    closed
-        Whether an edge leads from the last point to the first.
-    """
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """The control points, shape (n, 2)."""
+        return self.blocks.curve.control_points
 
-    def __init__(self, points: NDArray[np.float64], closed: bool) -> None:
-        self.points = points
-        self.closed = closed
-        super().__init__(len(points) if closed else len(points) - 1)
+    @property
+    def closed(self) -> bool:
+        """Whether an edge leads from the last point to the first."""
+        return self.blocks.curve.closed
 
-    def edges_at(self, indices: ArrayLike) -> tuple[range, ...]:
-        """Edges that end in some control points, as `update` wants them."""
-        places = np.asarray(indices, dtype=np.intp)
-        return within(around(places, 1, 1), self.spans, self.closed) if places.size else ()
+    def boxes(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
+        """See `Pyramid.boxes`."""
+        boxes: NDArray[np.float64] = self.blocks.boxes[level][:, nodes]
+        return boxes
+
+    def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:  # noqa: ARG002 - as of others
+        """Nothing; see `Pyramid.slack`."""
+        return np.zeros(len(nodes))
+
+    def places(self, indices: NDArray[np.intp]) -> NDArray[np.float64]:
+        """See `Pyramid.places`."""
+        points = self.points
+        places: NDArray[np.float64] = points.T[:, indices % len(points)]
+        return places
 
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Control points at the ends of edges, and zeros; see `Pyramid.spans_of`."""
+        """See `Pyramid.spans_of`."""
         places = np.minimum(FAN * blocks[:, None] + np.arange(FAN + 1), self.spans)
-        ends = self.points[places % len(self.points)].transpose(2, 0, 1)
-        return ends, np.zeros((2, len(blocks), FAN))
-
-
-def _unique(rising: list[NDArray[np.intp]]) -> NDArray[np.intp]:
-    """All values of arrays that rise, one after the other, each value once."""
-    if not rising:
-        return np.zeros(0, dtype=np.intp)
-    values = np.concatenate(rising)
-    found: NDArray[np.intp] = values[np.append(True, values[1:] > values[:-1])]
-    return found
-
-
-def children_ends(below: NDArray[np.float64], nodes: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Ends of the children of some nodes, shape (2, m, 9), from all ends of the level below."""
-    return below[:, FAN * nodes[:, None] + np.arange(FAN + 1)]
-
-
-def bends_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Sizes of the second differences of each coordinate, along the last axis."""
-    bends: NDArray[np.float64] = np.abs(np.diff(np.diff(points)))
-    return bends
-
-
-def boxes_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Boxes of points (2, ..., r): lower corners, and the negatives of the upper, (4, ...)."""
-    return np.concatenate([points.min(axis=-1), -points.max(axis=-1)])
-
-
-def from_chords(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distances of the inner ones of points (2, ..., r) from the segment between the outer ones.
-
-    Returns
-    -------
-    ndarray
-        Shape (..., r - 2).
-    """
-    x, y = points[..., 1:-1] - points[..., :1]
-    way_x, way_y = points[..., -1:] - points[..., :1]
-    length = way_x * way_x + way_y * way_y
-    share = (x * way_x + y * way_y) / np.where(length > 0, length, 1.0)
-    np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share)
-    x -= share * way_x
-    y -= share * way_y
-    x *= x
-    y *= y
-    distances: NDArray[np.float64] = np.sqrt(x + y)
-    return distances
-
-
-def folded(extreme: np.ufunc, values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Extreme of each `FAN` consecutive entries of the last axis."""
-    size = FAN
-    while size > 1:
-        values = extreme(values[..., ::2], values[..., 1::2])
-        size //= 2
-    return values
+        return self.places(places), np.zeros((2, len(blocks), FAN))
 
 
 def running_max(values: NDArray[np.float64], size: int) -> NDArray[np.float64]:

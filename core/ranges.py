@@ -21,6 +21,8 @@ def around(indices: NDArray[np.intp], before: int, after: int) -> list[tuple[int
     if indices.size == 1:
         index = int(indices.item())
         return [(index - before, index + after)]
+    if indices.size == 0:
+        return []
     places = np.unique(indices)
     gaps = np.flatnonzero(np.diff(places) > before + after)
     starts = places[np.concatenate([[0], gaps + 1])] - before

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -50,9 +50,11 @@ class Chords:
     Parameters
     ----------
     origin
-        What is subtracted from whole spans' points, shape (2,).
+        What is subtracted from the points at whole t, shape (2,).
     budget
         Number of chords to be kept, about.
+    places
+        Points at whole t, shape (2, k) for k of them.
 
     Attributes
     ----------
@@ -60,9 +62,15 @@ class Chords:
         Largest bound of those taken; whoever adds chords raises it.
     """
 
-    def __init__(self, origin: NDArray[np.float64], budget: int) -> None:
+    def __init__(
+        self,
+        origin: NDArray[np.float64],
+        budget: int,
+        places: Callable[[NDArray[np.intp]], NDArray[np.float64]],
+    ) -> None:
         self.deviation = 0.0
         self._origin = origin
+        self._places = places
         self._left = budget
         self._times: list[NDArray[np.float64]] = []
         self._points: list[NDArray[np.float64]] = []
@@ -105,17 +113,12 @@ class Chords:
             levels = np.maximum(levels - 1, 0)
         return levels
 
-    def add_parts(
-        self,
-        first: NDArray[np.intp],
-        step: int,
-        size: int,
-        total: int,
-        ends: NDArray[np.float64],
-    ) -> None:
-        """Take chords over ``step`` nodes of ``size`` spans; ``ends`` has the shape (2, k, 2)."""
-        times = np.minimum(size * np.stack([first, first + step]), total)
-        self._add(times, ends - self._origin[:, None, None])
+    def add_parts(self, times: NDArray[np.intp]) -> None:
+        """Take chords over whole spans, by the t of both ends (2, k).
+
+        Their points are made in the end, because neighbours have most of them in common.
+        """
+        self._add(times, np.full((2, times.shape[1], 2), np.nan))
 
     def add_curve(
         self, start: NDArray[np.float64], length: float, points: NDArray[np.float64]
@@ -149,5 +152,8 @@ class Chords:
         vertices[:, place], parameters[place] = ends[:, order, 0], start
         tips = place[last] + 1
         vertices[:, tips], parameters[tips] = ends[:, order[last], 1], after[last]
+        unknown = np.flatnonzero(np.isnan(vertices[0]))
+        whole = parameters[unknown].astype(np.intp)
+        vertices[:, unknown] = self._places(whole) - self._origin[:, None]
         starts = np.concatenate([[0], tips + 1])
         return Runs(vertices.T, parameters, starts, self.deviation)

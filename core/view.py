@@ -13,27 +13,20 @@ give it, so that only those in the rectangle are followed, at any zoom.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from core.affine import IDENTITY, Affine
 from core.basis import MEMORY, BasicLimitFunction
+from core.blocks import FAN, bends_of, boxes_of, from_chords
 from core.chords import cell_constant, second_difference_norm
 from core.limit import LimitCurve
 from core.mask import Mask
-from core.pyramid import (
-    FAN,
-    CurvePyramid,
-    Pyramid,
-    bends_of,
-    boxes_of,
-    children_ends,
-    contained,
-    from_chords,
-    meets,
-)
+from core.pyramid import CurvePyramid, Pyramid, contained, meets
 from core.runs import PARTS, Chords, Runs
 
 BUDGET: Final = 4000
@@ -53,6 +46,7 @@ def view(
     tolerance: float,
     origin: NDArray[np.float64] | None = None,
     budget: int = BUDGET,
+    placed: Affine = IDENTITY,
 ) -> Runs:
     """Vertices of the parts of a curve that may meet a rectangle.
 
@@ -69,18 +63,36 @@ def view(
         rectangle keeps the digits that matter, however far the drawing lies from (0, 0).
     budget
         Number of chords that is not exceeded by much: then nodes are taken as they are.
+    placed
+        Where the curve lies that is seen: limit curves follow affine maps exactly, so one that
+        moves as a whole needs no other levels of detail. Rectangle, tolerance, origin and result
+        are those of the image. A rectangle that is turned takes up to twice the vertices.
 
     Returns
     -------
     Runs
-        All of the curve that lies in the rectangle, and a little beyond it.
+        All of the curve that lies in the rectangle, and a little beyond it. Of a scheme that is not
+        proven to converge a finite level is seen, and no deviation is known: it is infinite.
     """
     shift = np.zeros(2) if origin is None else np.asarray(origin, dtype=np.float64)
+    if placed is not IDENTITY:
+        back = placed.inverse
+        own = back(shift)
+        low, high = back.box(np.asarray(lower), np.asarray(upper))
+        runs = view(pyramid, low, high, tolerance / placed.stretch, own, budget)
+        # The origin's way there and back leaves a rounding.
+        vertices = Affine(placed.matrix, placed(own) - shift)(runs.vertices)
+        return replace(runs, vertices=vertices, deviation=runs.deviation * placed.stretch)
     limits = np.concatenate([upper, -np.asarray(lower)])
-    found = Chords(shift, budget)
+    found = Chords(shift, budget, pyramid.places)
+    if isinstance(pyramid, CurvePyramid) and pyramid.finest is not None:
+        found.deviation = np.inf
     spans, bounds = _descend(pyramid, limits, tolerance, found)
     if isinstance(pyramid, CurvePyramid) and len(spans):
-        _subdivide(pyramid.curve, spans, bounds, limits, tolerance, shift, found)
+        if pyramid.finest is None:
+            _subdivide(pyramid.curve, spans, bounds, limits, tolerance, shift, found)
+        else:
+            _tabulate(pyramid.curve, spans, pyramid.finest, shift, found)
     return found.joined()
 
 
@@ -89,34 +101,28 @@ def _descend(
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Collect chords over whole spans; return the spans that need finer ones, and their bounds."""
     total = pyramid.spans
-    level = len(pyramid.ends) - 1
+    level = pyramid.depth - 1
     # At the top there is no parent whose parts could be joined, but eight nodes make one.
-    nodes = np.flatnonzero(meets(pyramid.boxes[level], limits))
-    deviations = pyramid.deviations[level][nodes]
+    nodes = pyramid.nodes(level)
+    nodes = nodes[meets(pyramid.boxes(level, nodes), limits)]
+    deviations = pyramid.deviations(level, nodes) + pyramid.slack(level, nodes)
     straight = deviations <= tolerance
-    ends = pyramid.ends[level][:, nodes[:, None] + np.arange(2)]
-    found.add_parts(nodes[straight], 1, FAN ** (level + 1), total, ends[:, straight])
-    found.deviation = float(deviations[straight].max(initial=0.0))
+    size: int = FAN ** (level + 1)
+    found.add_parts(np.minimum(size * (nodes[straight] + np.arange(2)[:, None]), total))
+    found.deviation = max(found.deviation, float(deviations[straight].max(initial=0.0)))
     nodes = nodes[~straight]
     while len(nodes):
         children = FAN * nodes[:, None] + np.arange(FAN)
-        if level:
-            ends = children_ends(pyramid.ends[level - 1], nodes)
-            deviations = pyramid.deviations[level - 1][children]
-            boxes = pyramid.boxes[level - 1][:, children]
-            seen = meets(boxes, limits)
-        else:
-            ends, margins = pyramid.spans_of(nodes)
-            deviations = np.hypot(margins[0], margins[1])
-            pairs = np.stack([ends[:, :, :-1], ends[:, :, 1:]], axis=-1)
-            boxes = boxes_of(pairs) - np.concatenate([margins, margins])
-            seen = meets(boxes, limits) & (children < total)
+        size //= FAN
+        parts = _below(pyramid, level, nodes, children)
+        seen = meets(parts.boxes, limits) & (size * children < total)
+        deviations = parts.deviations + parts.slack
         wanted = seen & (deviations > tolerance)
-        within = contained(boxes, limits)
+        within = contained(parts.boxes, limits)
         bent = found.affordable(wanted, within, deviations, int(np.count_nonzero(seen)))
         taken = seen & ~bent
         found.deviation = max(found.deviation, float(deviations[taken].max(initial=0.0)))
-        _join(found, children, taken, ends, deviations, tolerance, FAN**level, total)
+        _join(found, children, taken, parts, tolerance, size, total)
         nodes = children[bent]
         if not level:
             return nodes, deviations[bent]
@@ -124,12 +130,52 @@ def _descend(
     return nodes, np.zeros(0)
 
 
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """What is known of the eight parts of some nodes, each shape (..., m, 8).
+
+    Attributes
+    ----------
+    knots
+        Where the polygon is cut, or for single spans the curve itself, shape (2, m, 9).
+    deviations, slack
+        As in `core.pyramid.Pyramid`.
+    boxes
+        Shape (4, m, 8).
+    """
+
+    knots: NDArray[np.float64]
+    deviations: NDArray[np.float64]
+    slack: NDArray[np.float64]
+    boxes: NDArray[np.float64]
+
+
+def _below(
+    pyramid: Pyramid, level: int, nodes: NDArray[np.intp], children: NDArray[np.intp]
+) -> _Parts:
+    """Parts of some nodes of a level: nodes of the level below, or spans."""
+    if level:
+        shape, flat = children.shape, children.ravel()
+        return _Parts(
+            pyramid.blocks.knots(level, nodes),
+            pyramid.deviations(level - 1, flat).reshape(shape),
+            pyramid.slack(level - 1, flat).reshape(shape),
+            pyramid.boxes(level - 1, flat).reshape(4, *shape),
+        )
+    ends, margins = pyramid.spans_of(nodes)
+    starts, stops = ends[:, :, :-1], ends[:, :, 1:]
+    boxes = np.empty((4, *starts.shape[1:]))
+    np.subtract(np.minimum(starts, stops), margins, out=boxes[:2])
+    np.subtract(-np.maximum(starts, stops), margins, out=boxes[2:])
+    deviations = np.hypot(margins[0], margins[1])
+    return _Parts(ends, deviations, np.zeros_like(deviations), boxes)
+
+
 def _join(
     found: Chords,
     children: NDArray[np.intp],
     taken: NDArray[np.bool_],
-    ends: NDArray[np.float64],
-    deviations: NDArray[np.float64],
+    parts: _Parts,
     tolerance: float,
     size: int,
     total: int,
@@ -143,15 +189,18 @@ def _join(
             continue
         place = step * group
         if step > 1:
-            off = from_chords(ends[:, rows[:, None], place[:, None] + np.arange(step + 1)])
-            bounds = off.max(axis=1) + deviations.reshape(groups.shape)[rows, group].max(axis=1)
+            # In memory the groups lie along the last axis, where loops are long.
+            inner = parts.knots[:, rows, place + np.arange(step + 1)[:, None]]
+            bounds = from_chords(inner.transpose(0, 2, 1)).max(axis=1)
+            for share in (parts.deviations, parts.slack):
+                bounds += share.reshape(groups.shape)[rows, group].max(axis=1)
             good = bounds <= tolerance
             rows, group, place, bounds = rows[good], group[good], place[good], bounds[good]
             found.deviation = max(found.deviation, float(bounds.max(initial=0.0)))
             groups = groups.copy()
             groups[rows, group] = False
-        outer = ends[:, rows[:, None], place[:, None] + np.array([0, step])]
-        found.add_parts(children[rows, place], step, size, total, outer)
+        first = children[rows, place]
+        found.add_parts(np.minimum(size * np.stack([first, first + step]), total))
         left = groups.reshape(left.shape)
 
 
@@ -207,6 +256,19 @@ def _subdivide(
         bent = seen & ~straight
         windows, times, bounds = windows[:, bent], times[bent], bounds[bent]
         within = contained(boxes[:, bent], limits)
+
+
+def _tabulate(
+    curve: LimitCurve,
+    spans: NDArray[np.intp],
+    level: int,
+    shift: NDArray[np.float64],
+    found: Chords,
+) -> None:
+    """Collect chords of spans at a finite level, of a curve of which no more is proven."""
+    level = int(found.thinned(np.full(len(spans), level)).max())
+    points = curve.span_points(spans, level).transpose(2, 0, 1) - shift[:, None, None]
+    found.add_curve(spans.astype(np.float64), 1.0, points)
 
 
 @lru_cache(maxsize=MEMORY)

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.affine import Affine
 from core.document import MAX_COORDINATE_MM, MAX_POINTS, Curve, Document
 from core.errors import NinepointError
 from core.family import PRESETS
@@ -129,6 +130,42 @@ def test_a_move_in_a_long_curve_costs_what_moves():
     assert again.points[7].tolist() == [5, 6]
     assert moved.points[7].tolist() == [1, 2]
     assert replace(moved, name="wing").points[-1].tolist() == [3, 4]
+
+
+def test_a_curve_that_is_carried_costs_nothing_of_its_size():
+    points = np.random.default_rng(1).normal(size=(200_000, 2))
+    curve = Curve(points)
+    curve.carried(Affine.shift((0.0, 0.0)))
+    tracemalloc.start()
+    try:
+        there = curve.carried(Affine.shift((3.0, -4.0))).moved(7, (0.0, 0.0))
+        Document((there,))
+        again = there.carried(Affine.shift((1.0, 1.0)))
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 20_000
+    assert again.differences(curve).tolist() == [7]
+    np.testing.assert_array_equal(again.placed.offset, (4.0, -3.0))
+    np.testing.assert_array_equal(again.places([6, 7]), [points[6] + [4, -3], (1, 1)])
+    expected = points + np.array([4, -3])
+    expected[7] = 1, 1
+    np.testing.assert_array_equal(again.points, expected)
+    np.testing.assert_array_equal(curve.points, points)
+
+
+def test_a_turned_curve_is_that_of_its_turned_points():
+    turn = Affine(np.array([[0.6, -0.8], [0.8, 0.6]]), np.array([5.0, 6.0]))
+    curve = Curve(SQUARE).carried(turn)
+    expected = np.array(SQUARE) @ turn.matrix.T + turn.offset
+    np.testing.assert_allclose(curve.points, expected, atol=1e-12)
+    np.testing.assert_array_equal(curve.points, curve.places(np.arange(4)))
+    assert Curve(np.zeros((0, 2))).carried(turn).count == 0
+
+
+def test_a_curve_is_not_carried_off_the_sheet():
+    with pytest.raises(NinepointError, match="leave the sheet"):
+        Curve(SQUARE).carried(Affine.shift((MAX_COORDINATE_MM, 0)))
 
 
 @pytest.mark.parametrize("index", [4, -5])

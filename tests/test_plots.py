@@ -5,13 +5,13 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from app.drawn import FINITE_LEVEL
 from app.opening import ready_document
 from app.plots import LEVEL, WIDEST, BasisPlot, StepPlot
 from app.session import Session
 from app.style import DARK, LIGHT
 from app.theme import window_palette
 from core.basis import BasicLimitFunction
+from core.chords import COARSE_LEVEL
 from core.errors import NoLimitError
 from core.family import PRESETS, Parameters
 
@@ -96,7 +96,7 @@ def test_a_divergent_scheme_is_drawn_at_a_finite_level(basis, step, session, par
     choose(session, parameters)
     for plot in (basis, step):
         t, values = plot.curve.getData()
-        assert len(t) <= 17 * 2**FINITE_LEVEL + 3
+        assert len(t) <= 17 * 2**COARSE_LEVEL + 3
         assert np.abs(values).max() <= WIDEST
     assert step.sentence == "overshoot and undershoot: no bound proven"
     assert len(step.peaks.data) == 0

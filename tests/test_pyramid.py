@@ -1,8 +1,8 @@
-"""The pyramid: boxes and deviations hold, and an update equals a new pyramid."""
+"""The pyramids of a curve and of its polygon: boxes, deviations and ends are what they promise."""
 
 from __future__ import annotations
 
-import tracemalloc
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -10,11 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from core.blocks import FAN, Blocks, from_chords
 from core.errors import NoLimitError
-from core.family import PRESETS, Parameters
-from core.limit import LimitCurve
+from core.family import Parameters
 from core.live import LiveCurve
-from core.pyramid import FAN, CurvePyramid, from_chords
+from core.mask import Mask
+from core.pyramid import CurvePyramid, PolygonPyramid, Pyramid
 from oracles import convergent_members
 
 SEEDS = st.integers(0, 10**6)
@@ -27,69 +28,68 @@ def wave(count: int, seed: int = 1) -> NDArray[np.float64]:
     return circle + rng.normal(0, 3, (count, 2))
 
 
+def check(pyramid: Pyramid, dense: NDArray[np.float64], level: int) -> None:
+    """Compare all that a pyramid promises with points (2, m) at ``t = k / 2^level``."""
+    ends = pyramid.places(np.arange(pyramid.spans + 1))
+    np.testing.assert_allclose(ends, dense[:, :: 1 << level], atol=1e-9)
+    for k in range(pyramid.depth):
+        size = FAN ** (k + 1)
+        nodes = pyramid.nodes(k)
+        boxes = pyramid.boxes(k, nodes)
+        deviations = pyramid.deviations(k, nodes) + pyramid.slack(k, nodes)
+        full = -(-pyramid.spans // size)
+        for node in range(full):
+            first, after = node * size, min((node + 1) * size, pyramid.spans)
+            part = dense[:, first << level : (after << level) + 1]
+            assert (part.min(axis=1) >= boxes[:2, node] - 1e-9).all()
+            assert (-part.max(axis=1) >= boxes[2:, node] - 1e-9).all()
+            assert from_chords(part).max(initial=0.0) <= deviations[node] + 1e-9
+        assert np.isinf(boxes[:, full:]).all()
+
+
 @given(convergent_members(), st.integers(2, 700), SEEDS, st.booleans())
 @settings(max_examples=40)
-def test_no_node_promises_too_much(member: Parameters, count: int, seed: int, closed: bool) -> None:
-    curve = LimitCurve(wave(count, seed), member.mask, closed)
-    pyramid = CurvePyramid(curve)
+def test_no_node_of_a_curve_promises_too_much(
+    member: Parameters, count: int, seed: int, closed: bool
+) -> None:
+    curve = LiveCurve(wave(count, seed), member.mask, closed)
     level = 4
     dense = curve.points(level)
     if closed:
         dense = np.concatenate([dense, dense[:1]])
-    for k in range(len(pyramid.ends)):
-        spans = FAN ** (k + 1)
-        nodes = -(-curve.spans // spans)
-        for node in range(nodes):
-            first, after = node * spans, min((node + 1) * spans, curve.spans)
-            part = dense[first << level : (after << level) + 1].T
-            box = pyramid.boxes[k][:, node]
-            assert (part.min(axis=1) >= box[:2] - 1e-9).all()
-            assert (-part.max(axis=1) >= box[2:] - 1e-9).all()
-            assert from_chords(part).max() <= pyramid.deviations[k][node] + 1e-9
-            ends = pyramid.ends[k][:, node : node + 2]
-            np.testing.assert_allclose(ends, part[:, [0, -1]], atol=1e-9)
-        assert np.isinf(pyramid.boxes[k][:, nodes:]).all()
+    pyramid = CurvePyramid(Blocks(curve))
+    assert pyramid.finest is None
+    check(pyramid, dense.T, level)
 
 
-@given(convergent_members(), st.integers(2, 700), SEEDS, st.booleans())
-@settings(max_examples=40)
-def test_an_update_equals_a_new_pyramid(
+@given(convergent_members(["translated"]), st.integers(2, 700), SEEDS, st.booleans())
+@settings(max_examples=20)
+def test_no_node_of_a_polygon_promises_too_much(
     member: Parameters, count: int, seed: int, closed: bool
 ) -> None:
-    rng = np.random.default_rng(seed)
-    live = LiveCurve(wave(count, seed), member.mask, closed)
-    pyramid = CurvePyramid(live)
-    for _ in range(3):
-        indices = rng.choice(count, size=min(2, count), replace=False)
-        pyramid.update(live.move(indices, rng.normal(0, 50, (len(indices), 2))))
-    new = CurvePyramid(LimitCurve(live.control_points, member.mask, closed))
-    for mine, others in (
-        (pyramid.ends, new.ends),
-        (pyramid.boxes, new.boxes),
-        (pyramid.deviations, new.deviations),
-    ):
-        for held, expected in zip(mine, others, strict=True):
-            np.testing.assert_allclose(held, expected, atol=1e-9, rtol=0)
+    curve = LiveCurve(wave(count, seed), member.mask, closed)
+    points = curve.control_points
+    corners = np.concatenate([points, points[:1]]) if closed else points
+    check(PolygonPyramid(Blocks(curve)), corners.T, 0)
 
 
-def test_an_update_allocates_nothing_of_size_n() -> None:
-    live = LiveCurve(wave(200_000), PRESETS["Tight"].mask, True)
-    pyramid = CurvePyramid(live)
-    tracemalloc.start()
-    try:
-        pyramid.update(live.move(100_000, (3.0, 4.0)))
-        peak = tracemalloc.get_traced_memory()[1]
-    finally:
-        tracemalloc.stop()
-    assert peak < 100_000
+@pytest.mark.parametrize("closed", [True, False])
+def test_a_finite_level_keeps_its_promises_too(closed: bool) -> None:
+    curve = LiveCurve(wave(150), Parameters(100, 100, 100).mask, closed)
+    pyramid = CurvePyramid(Blocks(curve))
+    assert pyramid.finest == 2
+    finite = curve.points(2)
+    if closed:
+        finite = np.concatenate([finite, finite[:1]])
+    scale = np.abs(finite).max()
+    check(CurvePyramid(Blocks(LiveCurve(curve.control_points / scale, curve.mask, closed))),
+          finite.T / scale, 2)  # fmt: skip
 
 
-def test_without_a_proven_bound_there_is_no_pyramid() -> None:
+def test_without_a_limit_there_is_no_pyramid_of_the_curve() -> None:
+    # 1 is a double eigenvalue of its integer matrix.
+    mask = Mask(-2, tuple(Fraction(c) for c in (1, 2, 0, -1)))
+    blocks = Blocks(LiveCurve(wave(20), mask, True))
     with pytest.raises(NoLimitError):
-        CurvePyramid(LimitCurve(wave(20), Parameters(100, 100, 100).mask, True))
-
-
-def test_distances_are_those_from_segments() -> None:
-    points = np.array([[0, 2, 5, -1, 4.0], [0, 1, 0, 0, 0.0]])
-    np.testing.assert_allclose(from_chords(points), [1, 1, 1])
-    np.testing.assert_allclose(from_chords(np.ones((2, 4))), [0, 0])
+        CurvePyramid(blocks)
+    assert PolygonPyramid(blocks).spans == 20

@@ -145,10 +145,10 @@ def test_the_first_hint_goes_with_the_first_edit(canvas, session, mouse):
 
 
 def test_a_scheme_without_limit_is_told(canvas, session, monkeypatch):
-    def refuse(points, mask, closed):
+    def refuse(blocks):
         raise NoLimitError("no limit")
 
-    monkeypatch.setattr("app.figure.LiveCurve", refuse)
+    monkeypatch.setattr("app.figure.CurvePyramid", refuse)
     session.edit(session.document.with_parameters(PRESETS["Tight"]), "Tight")
     canvas.grab()
     QApplication.processEvents()

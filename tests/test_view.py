@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tracemalloc
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,9 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from core.affine import Affine
 from core.basis import BasicLimitFunction
-from core.chords import cell_constant
+from core.blocks import Blocks
+from core.chords import cell_constant, chord_constant
 from core.document import Curve
+from core.errors import NoLimitError
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
 from core.live import LiveCurve
@@ -39,9 +43,13 @@ def flower(count: int, noise: float = 0.0) -> NDArray[np.float64]:
     return circle + rng.normal(0, noise, (count, 2))
 
 
+def outline(curve: LimitCurve) -> CurvePyramid:
+    return CurvePyramid(Blocks(LiveCurve(curve.control_points, curve.mask, curve.closed)))
+
+
 def looked_at(curve: LimitCurve, place: NDArray[np.float64], zoom: float) -> Runs:
     half = HALF_SCREEN / zoom
-    return view(CurvePyramid(curve), place - half, place + half, TOLERANCE_PX / zoom)
+    return view(outline(curve), place - half, place + half, TOLERANCE_PX / zoom)
 
 
 def true_error(curve: LimitCurve, seen: Runs, samples: int = 5) -> float:
@@ -88,7 +96,7 @@ def test_nothing_seen_is_missed(member: Parameters, count: int, seed: int, close
     dense, t = curve.points(6), curve.parameters(6)
     place = dense[rng.integers(len(dense))]
     half = HALF_SCREEN * 10.0 ** rng.uniform(-4, 1)
-    seen = view(CurvePyramid(curve), place - half, place + half, 0.01 * half[0], budget=10**6)
+    seen = view(outline(curve), place - half, place + half, 0.01 * half[0], budget=10**6)
     inside = (np.abs(dense - place) <= half).all(axis=1)
     covered = np.zeros(len(t), dtype=bool)
     for first, after in zip(seen.starts[:-1], seen.starts[1:], strict=True):
@@ -118,7 +126,7 @@ def test_a_scribble_keeps_the_budget_and_says_how_far_it_is_off() -> None:
     curve = LimitCurve(
         np.random.default_rng(1).normal(0, 100, (50_000, 2)), PRESETS["Calm"].mask, True
     )
-    seen = view(CurvePyramid(curve), -HALF_SCREEN, HALF_SCREEN, TOLERANCE_PX, budget=3000)
+    seen = view(outline(curve), -HALF_SCREEN, HALF_SCREEN, TOLERANCE_PX, budget=3000)
     assert 1500 < len(seen.vertices) < 4000
     assert seen.deviation > TOLERANCE_PX
 
@@ -147,7 +155,7 @@ def test_far_from_the_origin_nothing_jitters(zoom: float) -> None:
     half = HALF_SCREEN / 2**10 / zoom
     seen = []
     for offset in (np.zeros(2), far_away):
-        pyramid = CurvePyramid(LimitCurve(points + offset, PRESETS["Tight"].mask, True))
+        pyramid = outline(LimitCurve(points + offset, PRESETS["Tight"].mask, True))
         # A float near the offset cannot name the place; it is given to the nearest one.
         centre = np.round((place + offset) * 2**20) / 2**20
         seen.append(view(pyramid, centre - 3 * half, centre + 3 * half, half[0] / 4000, centre))
@@ -174,7 +182,7 @@ def test_degenerate_polygons_are_seen(count: int, closed: bool, kind: str) -> No
     }[kind]
     curve = LimitCurve(points, PRESETS["Lean"].mask, closed)
     size = float(np.abs(points).max())
-    seen = view(CurvePyramid(curve), np.full(2, -9 * size), np.full(2, 9 * size), size / 1000)
+    seen = view(outline(curve), np.full(2, -9 * size), np.full(2, 9 * size), size / 1000)
     assert np.isfinite(seen.vertices).all()
     assert seen.parameters[0] == 0
     assert seen.parameters[-1] == curve.spans
@@ -183,11 +191,12 @@ def test_degenerate_polygons_are_seen(count: int, closed: bool, kind: str) -> No
 
 def test_a_moved_point_is_seen_where_it_went() -> None:
     live = LiveCurve(flower(3000), PRESETS["Calm"].mask, True)
-    pyramid = CurvePyramid(live)
-    touched = live.move(100, (0.0, 0.0))
+    blocks = Blocks(live)
+    pyramid = CurvePyramid(blocks)
+    live.move(100, (0.0, 0.0))
     place = live.at(100)
     assert len(view(pyramid, place - 20, place + 20, 0.25).vertices) == 0
-    pyramid.update(touched)
+    blocks.update([100])
     seen = view(pyramid, place - 20, place + 20, 0.25)
     assert len(seen.vertices) > 2
     assert true_error(LimitCurve(live.control_points, live.mask, True), seen) <= 0.25
@@ -229,14 +238,15 @@ def test_a_hatching_costs_no_more_than_it_may_and_is_right_where_it_can_be(zoom:
 def test_an_event_allocates_nothing_of_size_n() -> None:
     curve = Curve(flower(200_000))
     live = LiveCurve(curve.points, PRESETS["Calm"].mask, True)
-    pyramid, polygon = CurvePyramid(live), PolygonPyramid(live.control_points, True)
+    blocks = Blocks(live)
+    pyramid, polygon = CurvePyramid(blocks), PolygonPyramid(blocks)
 
     def event(index: int) -> None:
         after = curve.moved(index, (30.0, 40.0))
         changed = after.differences(curve)
         assert changed is not None
-        pyramid.update(live.move(changed, after.places(changed)))
-        polygon.update(polygon.edges_at(changed))
+        live.move(changed, after.places(changed))
+        blocks.update(changed)
         view(pyramid, -HALF_SCREEN, HALF_SCREEN, TOLERANCE_PX)
         nearest_point(polygon, live.at(index), 8.0)
 
@@ -250,7 +260,73 @@ def test_an_event_allocates_nothing_of_size_n() -> None:
     assert peak < 600_000
 
 
-def test_a_scheme_that_does_not_converge_is_seen_at_a_finite_level() -> None:
-    curve = LimitCurve(flower(30), Parameters(100, -100, 100).mask, True)
-    seen = view(PolygonPyramid(curve.points(2), True), np.full(2, -1e9), np.full(2, 1e9), 0.25)
-    assert np.isfinite(seen.vertices).all()
+@both_ends
+@pytest.mark.parametrize("zoom", [1e-9, 1e-3, 1.0])
+def test_a_scheme_that_does_not_converge_is_seen_at_a_finite_level(
+    zoom: float, closed: bool
+) -> None:
+    curve = LimitCurve(flower(3000), Parameters(100, -100, 100).mask, closed)
+    level = outline(curve).finest
+    assert level == 2
+    finite = curve.points(level)
+    place = finite[1000]
+    seen = looked_at(curve, place, zoom)
+    assert np.isinf(seen.deviation)
+    assert 1 < len(seen.vertices) < 10_000
+    for vertex, t in zip(seen.vertices, seen.parameters, strict=True):
+        expected = finite[round(t * 2**level) % len(finite)]
+        np.testing.assert_allclose(vertex, expected, atol=1e-9 * np.abs(finite).max())
+
+
+def test_a_scheme_that_seems_to_converge_is_seen_fine() -> None:
+    unproven = Parameters(0, -8, 0).mask
+    with pytest.raises(NoLimitError):
+        chord_constant(unproven)
+    curve = LimitCurve(flower(30), unproven, True)
+    assert outline(curve).finest == 6
+    assert len(looked_at(curve, curve.points(0)[3], 20.0).vertices) > 64
+
+
+@members
+@both_ends
+@pytest.mark.parametrize("count", [17, 18, 23, 900])
+def test_another_scheme_needs_no_new_blocks(member: Parameters, closed: bool, count: int) -> None:
+    live = LiveCurve(flower(count, 5.0), PRESETS["Lean"].mask, closed)
+    blocks = Blocks(live)
+    live.recast(member.mask)
+    blocks.update_ends()
+    curve = LimitCurve(live.control_points, member.mask, closed)
+    np.testing.assert_allclose(live.points(3), curve.points(3), atol=1e-11)
+    place = curve.at(7.3)
+    half = HALF_SCREEN / 5
+    seen = view(CurvePyramid(blocks), place - half, place + half, TOLERANCE_PX / 5)
+    anew = looked_at(curve, place, 5.0)
+    np.testing.assert_array_equal(seen.parameters, anew.parameters)
+    np.testing.assert_allclose(seen.vertices, anew.vertices, atol=1e-11)
+    assert true_error(curve, seen, 2) <= seen.deviation + 1e-11 <= TOLERANCE_PX / 5 + 1e-11
+
+
+@both_ends
+@pytest.mark.parametrize("turn", [0.0, 0.4, -1.1])
+def test_a_curve_that_is_moved_as_a_whole_needs_no_new_blocks(closed: bool, turn: float) -> None:
+    cos, sin = np.cos(turn), np.sin(turn)
+    matrix = np.array([[3.0 * cos, -sin], [3.0 * sin, cos]]) if turn else np.eye(2)
+    placed = Affine(matrix, np.array([7e3, -20.0]))
+    points = flower(900, 3.0)
+    curve = LimitCurve(placed(points), PRESETS["Lean"].mask, closed)
+    pyramid = outline(LimitCurve(points, PRESETS["Lean"].mask, closed))
+    place = curve.at(7.3)
+    half = HALF_SCREEN / 5
+    seen = view(pyramid, place - half, place + half, TOLERANCE_PX / 5, place, placed=placed)
+    exact = np.array([curve.at(t) for t in seen.parameters])
+    assert len(exact) > 10
+    np.testing.assert_allclose(seen.vertices + place, exact, atol=1e-8)
+    assert seen.deviation <= TOLERANCE_PX / 5 + 1e-11
+    moved = replace(seen, vertices=seen.vertices + place)
+    assert true_error(curve, moved, 2) <= seen.deviation + 1e-8
+    dense, t = curve.points(5), curve.parameters(5)
+    inside = t[(np.abs(dense - place) <= half).all(axis=1)]
+    covered = np.zeros(len(inside), dtype=bool)
+    for first, after in zip(seen.starts[:-1], seen.starts[1:], strict=True):
+        covered |= (inside >= seen.parameters[first]) & (inside <= seen.parameters[after - 1])
+    assert covered.all()

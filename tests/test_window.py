@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
 
 from answers import Answers
 from app import analysis
+from app.actions import COMMANDS
 from app.dialogs import Answer, Dialogs
-from app.drawn import FINITE_LEVEL
 from app.failures import SENTENCE, Failures
 from app.launch import run
 from app.opening import READY_POINTS_MM
@@ -29,6 +29,7 @@ from app.settings import Settings
 from app.style import DARK, LIGHT, palette_of
 from app.theme import window_palette
 from app.window import MainWindow
+from core.chords import COARSE_LEVEL
 from core.continuity import smoothness
 from core.document import Curve, Document
 from core.errors import NinepointError
@@ -86,6 +87,40 @@ def test_the_plots_come_after_the_first_paint(qtbot):
         window.show()
     assert window.docks.basis_plot.isVisible()
     assert window.docks.step_plot.isVisible()
+
+
+def test_nothing_moves_after_the_first_paint(qtbot):
+    window = MainWindow()
+    qtbot.addWidget(window)
+    with qtbot.waitExposed(window):
+        window.show()
+    first = [widget.geometry() for widget in (window.canvas, *window.docks.all)]
+    qtbot.waitUntil(lambda: window.docks.basis_plot is not None)
+    QApplication.processEvents()
+    assert [widget.geometry() for widget in (window.canvas, *window.docks.all)] == first
+
+
+@pytest.mark.parametrize("name", ["report", "map"])
+def test_hidden_panels_are_made_when_they_are_first_seen(qtbot, window, name):
+    dock = getattr(window.docks, name)
+    waiting = dock.widget()
+    dock.toggleViewAction().trigger()  # behind the tab of the lists
+    assert dock.widget() is waiting
+    dock.raise_()
+    qtbot.waitUntil(lambda: dock.widget() is not waiting)
+    made = dock.widget()
+    assert made is getattr(window, name)
+    assert made.isVisible()
+    dock.close()
+    dock.toggleViewAction().trigger()
+    dock.raise_()
+    qtbot.waitUntil(made.isVisible)
+    assert dock.widget() is made
+
+
+def test_every_icon_is_there_after_the_first_paint(window):
+    for command in COMMANDS:
+        assert window.commands[command.key].icon().isNull() is (command.icon == "")
 
 
 def test_moving_a_slider_changes_curve_and_plots_together(window):
@@ -304,6 +339,8 @@ def test_another_colour_scheme_reaches_everything(window, colours):
 
 
 def test_every_control_has_a_name(window):
+    window.show_report()
+    window.show_map()
     for kind in (QAbstractButton, QAbstractItemView, QAbstractSlider, QLineEdit):
         for control in window.findChildren(kind):
             if control.window() is not window or control.objectName().startswith("qt_"):
@@ -453,7 +490,7 @@ def test_a_divergent_scheme_is_drawn_without_overflow(qtbot, window, parameters)
     known(qtbot, window)
     (drawn,) = window.canvas.scene.curves
     assert np.isfinite(drawn.vertices_px).all()
-    assert len(drawn.vertices_px) == 8 * 2**FINITE_LEVEL + 1
+    assert len(drawn.vertices_px) == 8 * 2**COARSE_LEVEL + 1
     assert window.docks.step_plot.sentence == "overshoot and undershoot: no bound proven"
     colours = palette_of(window)
     content = window.canvas.grab().toImage()

@@ -5,11 +5,15 @@ Run with ``python3 tests tests/benchmarks``; the table comes at the end.
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from comparison import Comparison
 from numpy.typing import NDArray
 
+from core.affine import IDENTITY, Affine
+from core.blocks import Blocks
 from core.document import Curve
 from core.family import PRESETS
 from core.live import LiveCurve
@@ -31,7 +35,7 @@ def flower(number: int) -> NDArray[np.float64]:
 @pytest.mark.parametrize("number", LENGTHS)
 def test_frames(comparison: Comparison, number: int) -> None:
     live = LiveCurve(flower(number), PRESETS["Calm"].mask, True)
-    pyramid = CurvePyramid(live)
+    pyramid = CurvePyramid(Blocks(live))
     place = live.at(0.31 * number)
     for zoom in (1.0, 30.0, 1e6):
         half = HALF_SCREEN / zoom
@@ -51,29 +55,45 @@ def test_frames(comparison: Comparison, number: int) -> None:
 
 @pytest.mark.parametrize("number", LENGTHS)
 def test_from_event_to_vertices(comparison: Comparison, number: int) -> None:
-    """A document's curve, the live one, both pyramids, and all vertices of the frame."""
+    """A document's curve, the live one, its blocks, and all vertices of the frame."""
     curve = Curve(flower(number))
     live = LiveCurve(curve.points, PRESETS["Calm"].mask, True)
-    pyramid = CurvePyramid(live)
-    polygon = PolygonPyramid(live.control_points, True)
+    blocks = Blocks(live)
     index = number // 3
+    masks = itertools.cycle([PRESETS["Tight"].mask, PRESETS["Lean"].mask])
 
-    def event():
+    def seen(placed=IDENTITY):
+        pyramid = CurvePyramid(blocks)
+        return view(pyramid, -HALF_SCREEN, HALF_SCREEN, 0.25, placed=placed)
+
+    def moved():
         after = curve.moved(index, (30.0, 40.0))
         changed = after.differences(curve)
-        pyramid.update(live.move(changed, after.places(changed)))
-        polygon.update(polygon.edges_at(changed))
-        return view(pyramid, -HALF_SCREEN, HALF_SCREEN, 0.25)
+        live.move(changed, after.places(changed))
+        blocks.update(changed)
+        return seen()
 
-    milliseconds = comparison.seconds({"event": event})["event"] * 1e3
-    comparison.row(f"event to vertices, one point of {number:,}", f"{milliseconds:.2f} ms")
+    def recast():
+        live.recast(next(masks))
+        blocks.update_ends()
+        return seen()
+
+    found = comparison.seconds(
+        {
+            "one point": moved,
+            "another scheme": recast,
+            "all points together": lambda: seen(Affine.shift((30.0, 40.0))),
+        }
+    )
+    for what, seconds in found.items():
+        comparison.row(f"event to vertices, {what}, {number:,} points", f"{seconds * 1e3:.2f} ms")
 
 
 @pytest.mark.parametrize("number", LENGTHS)
 def test_picking(comparison: Comparison, number: int) -> None:
     live = LiveCurve(flower(number), PRESETS["Calm"].mask, True)
-    pyramid = CurvePyramid(live)
-    polygon = PolygonPyramid(live.control_points, True)
+    blocks = Blocks(live)
+    pyramid, polygon = CurvePyramid(blocks), PolygonPyramid(blocks)
     place = live.at(0.31 * number)
     found = comparison.seconds(
         {
@@ -92,8 +112,7 @@ def test_building_everything(comparison: Comparison) -> None:
     found = comparison.seconds(
         {
             "live curve": lambda: LiveCurve(points, PRESETS["Calm"].mask, True),
-            "pyramid of the curve": lambda: CurvePyramid(live),
-            "pyramid of the polygon": lambda: PolygonPyramid(live.control_points, True),
+            "its blocks": lambda: Blocks(live),
         }
     )
     for what, seconds in found.items():
