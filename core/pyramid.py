@@ -162,9 +162,9 @@ class PolygonPyramid(Pyramid):
         boxes: NDArray[np.float64] = self.blocks.boxes[level][:, nodes]
         return boxes
 
-    def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:  # noqa: ARG002 - as of others
+    def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
         """Nothing; see `Pyramid.slack`."""
-        return np.zeros(len(nodes))
+        return np.zeros_like(self.deviations(level, nodes))
 
     def places(self, indices: NDArray[np.intp]) -> NDArray[np.float64]:
         """See `Pyramid.places`."""

@@ -210,8 +210,10 @@ def test_a_curve_that_follows_moves_is_drawn_as_if_built_anew():
         assert np.isclose(len(now.parameters), len(anew.parameters), rtol=0.05)
         common = np.intersect1d(now.parameters, anew.parameters)
         assert len(common) > 0.9 * len(anew.parameters)
-        places = [seen.vertices_px[np.searchsorted(seen.parameters, common)] for seen in (now, anew)]
-        np.testing.assert_allclose(*places, atol=1e-9)
+        one, other = (
+            seen.vertices_px[np.searchsorted(seen.parameters, common)] for seen in (now, anew)
+        )
+        np.testing.assert_allclose(one, other, atol=1e-9)
         np.testing.assert_array_equal(now.limit.control_points, curve.points)
     drawn(origin, scene=scene)
     np.testing.assert_array_equal(scene.curves[0].vertices_px, drawn(origin).curves[0].vertices_px)
