@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
+import numpy as np
 from PySide6.QtCore import QEvent, QPointF, Qt, Signal
 from PySide6.QtGui import (
     QFocusEvent,
@@ -21,6 +22,7 @@ from app.gestures import Pointer
 from app.guard import guarded
 from app.hand import Hand
 from app.nudging import Nudging
+from app.point_set import PointSet
 from app.scene import Overlay
 from app.session import Selection, Session
 from app.sheet import NO_LIMIT_HINT, Sheet, place_px
@@ -112,8 +114,8 @@ class Canvas(Sheet):
 
     def select_all(self) -> None:
         """Select all control points."""
-        sizes = [curve.count for curve in self.session.document.curves]
-        points = frozenset((curve, point) for curve, n in enumerate(sizes) for point in range(n))
+        curves = self.session.document.curves
+        points = PointSet({index: np.arange(curve.count) for index, curve in enumerate(curves)})
         self.session.select(Selection(points, self.session.selection.curve))
 
     def delete_selection(self) -> None:

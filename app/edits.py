@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.handles import EdgeHit
+from app.point_set import PointSet
 from core.affine import Affine
 from core.document import MAX_COORDINATE_MM, Curve, Document
 from core.errors import NinepointError
@@ -18,19 +19,11 @@ def counted(verb: str, count: int) -> str:
     return f"{verb} point" if count == 1 else f"{verb} {count} points"
 
 
-def by_curve(points: Iterable[tuple[int, int]]) -> dict[int, list[int]]:
-    """Sorted point indices of each curve that has some among the pairs (curve, point)."""
-    grouped: dict[int, list[int]] = {}
-    for curve, point in sorted(points):
-        grouped.setdefault(curve, []).append(point)
-    return grouped
-
-
 def moved(
     document: Document, points: Iterable[tuple[int, int]], delta_mm: ArrayLike
 ) -> Document:
     """Document with some points shifted by ``delta_mm`` (2,); they stop at the admitted edge."""
-    return shifted(document, by_curve(points), delta_mm)
+    return shifted(document, PointSet.of(points).by_curve, delta_mm)
 
 
 def shifted(
@@ -61,7 +54,7 @@ def with_moved(
 
 def without_points(document: Document, points: Iterable[tuple[int, int]]) -> Document:
     """Document without some points; a curve that has none left goes with them."""
-    grouped = by_curve(points)
+    grouped = PointSet.of(points).by_curve
     emptied = set()
     for index, members in grouped.items():
         curve = document.curves[index].without(members)

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 
 from app.camera import Camera
-from app.edits import by_curve, counted, shifted, with_moved
+from app.edits import counted, shifted, with_moved
 from app.handles import CurveHit, PointHit
+from app.point_set import PointSet
 from app.ribbons import Influence
 from app.scene import NOTHING, Overlay, Scene
 from app.session import Selection, Session
@@ -148,12 +149,12 @@ class RubberBand(Gesture):
     def move(self, pointer: Pointer) -> None:
         self._end = pointer.pos_px
         stage = self._stage
-        points = frozenset[tuple[int, int]]()
+        points = PointSet()
         if stage.show_polygon:
-            points = stage.scene.points_within(self._start.pos_px, self._end)
+            points = PointSet.of(stage.scene.points_within(self._start.pos_px, self._end))
         if self._start.shift:
             points |= self._before.points
-        curves = {curve for curve, _ in points}
+        curves = points.by_curve.keys()
         # The active curve stays, unless points of another one alone were caught.
         curve = self._before.curve
         if curves and curve not in curves:
@@ -213,11 +214,7 @@ class MovePoints(_Edit):
         super().__init__(stage, pointer)
         self._hit = hit
         self._start_mm = stage.camera.to_mm(pointer.pos_px)
-        # Sorted once: an event shall not look at each pair again.
-        self._members = {
-            curve: np.array(members, dtype=np.intp)
-            for curve, members in by_curve(points).items()
-        }
+        self._members = points.by_curve
         self._influences = tuple(
             Influence(curve, members, np.ones(len(members)))
             for curve, members in self._members.items()

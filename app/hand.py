@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import Final, get_args
 
+import numpy as np
 from PySide6.QtCore import Qt
 
 from app.gestures import Pointer, Stage
 from app.nudging import Nudging
 from app.pen_tool import PenTool
+from app.point_set import PointSet
 from app.scene import Overlay
 from app.select_tool import SelectTool
 from app.session import Selection
@@ -224,16 +226,18 @@ class Hand:
         """Select the next or the previous control point; after a curve's last the next curve's."""
         session = self._stage.session
         curves = session.document.curves
-        keys = [(c, p) for c, curve in enumerate(curves) for p in range(curve.count)]
-        if not keys or self._busy is not None:
+        # Where each curve begins when all points are counted in one row.
+        starts = np.cumsum([0, *(curve.count for curve in curves)])
+        if not starts[-1] or self._busy is not None:
             return
         self._nudging.settle()
         selection = session.selection
-        own = sorted(p for p in selection.points if p[0] == selection.curve)
-        if own:
-            place = keys.index(own[-1] if way > 0 else own[0]) + way
+        own = selection.points.of_curve(selection.curve)
+        if len(own):
+            place = starts[selection.curve] + (own[-1] if way > 0 else own[0]) + way
         else:
-            first = [i for i, key in enumerate(keys) if key[0] == selection.curve] or [0]
-            place = first[0] if way > 0 else first[-1]
-        key = keys[place % len(keys)]
-        session.select(Selection(frozenset({key}), key[0]))
+            after = selection.curve + (way < 0)
+            place = starts[after] - (way < 0)
+        place %= starts[-1]
+        curve = int(np.searchsorted(starts, place, "right")) - 1
+        session.select(Selection(PointSet({curve: [place - starts[curve]]}), curve))

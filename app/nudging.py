@@ -7,6 +7,7 @@ from typing import Final
 from PySide6.QtCore import QObject, QTimer
 
 from app.edits import counted, moved
+from app.point_set import PointSet
 from app.session import Session
 from core.document import Document
 
@@ -29,7 +30,7 @@ class Nudging(QObject):
         super().__init__(parent)
         self._session = session
         self._origin: Document | None = None
-        self._points: frozenset[tuple[int, int]] = frozenset()
+        self._points = PointSet()
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.setInterval(BURST_MS)

@@ -30,6 +30,7 @@ from PySide6.QtWidgets import (
 
 from app.fields import typed_number
 from app.guard import guarded
+from app.point_set import PointSet
 from app.session import Selection, Session
 from app.theme import soften
 from core.document import Curve, Document
@@ -97,8 +98,7 @@ class CurvesPanel(QWidget):
         if self._showing or row < 0:
             return
         count = self._session.document.curves[row].count
-        points = frozenset((row, point) for point in range(count))
-        self._session.select(Selection(points, row))
+        self._session.select(Selection(PointSet({row: np.arange(count)}), row))
 
     def _rename(self, item: QListWidgetItem) -> None:
         if self._showing:
@@ -310,13 +310,13 @@ class PointsPanel(QWidget):
             return
         curve = self._session.selection.curve
         rows = {index.row() for index in self.table.selectionModel().selectedRows()}
-        self._session.select(Selection(frozenset((curve, row) for row in rows), curve))
+        self._session.select(Selection(PointSet({curve: sorted(rows)}), curve))
 
     def _show_selection(self) -> None:
         self._layout.setCurrentIndex(0 if self.model.rowCount() else 1)
         selection = self._session.selection
-        points = selection.of_curve(selection.curve)
-        rows = [row for row in points if row < self.model.rowCount()]
+        points = selection.points.of_curve(selection.curve)
+        rows = points[points < self.model.rowCount()].tolist()
         chosen = QItemSelection()
         for row in rows[:MAX_SYNCHRONISED]:
             first = self.model.index(row, 0)

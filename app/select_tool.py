@@ -12,6 +12,7 @@ from app.handles import (
     PointHit,
     nearest_on_curve,
 )
+from app.point_set import PointSet
 from app.scene import NOTHING, Overlay
 from app.session import Selection
 from app.style import SIZES
@@ -82,7 +83,7 @@ class SelectTool(DragTool):
             key = self._target.key
             self._was_selected = key in selection.points
             if not self._was_selected:
-                kept = selection.points if pointer.shift else frozenset[tuple[int, int]]()
+                kept = selection.points if pointer.shift else PointSet()
                 session.select(Selection(kept | {key}, key[0]))
             else:
                 session.select(Selection(selection.points, key[0]))
@@ -113,7 +114,7 @@ class SelectTool(DragTool):
             return
         session.commit()
         session.edit(document, "Insert point")
-        session.select(Selection(frozenset({key}), key[0]))
+        session.select(Selection(PointSet.of([key]), key[0]))
         hit = self._hit_point(pointer)
         if hit is not None and hit.key == key:
             # The button is still down: the new point can be dragged at once.
@@ -137,7 +138,7 @@ class SelectTool(DragTool):
         hit = self._hit(pointer)
         session = self._stage.session
         if isinstance(hit, PointHit) and hit.key not in session.selection.points:
-            session.select(Selection(frozenset({hit.key}), hit.curve))
+            session.select(Selection(PointSet.of([hit.key]), hit.curve))
         elif isinstance(hit, CurveHit):
             session.select(Selection(session.selection.points, hit.curve))
 
@@ -158,7 +159,7 @@ class SelectTool(DragTool):
             if self._was_selected and pointer.shift:
                 session.select(Selection(selection.points - {key}, selection.curve))
             elif self._was_selected:
-                session.select(Selection(frozenset({key}), key[0]))
+                session.select(Selection(PointSet.of([key]), key[0]))
         elif not pointer.shift:
             session.select(Selection(curve=selection.curve))
 

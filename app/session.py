@@ -2,37 +2,43 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
+from app.point_set import PointSet
 from core.document import Document
 from core.history import History
 
 
 @dataclass(frozen=True)
 class Selection:
-    """Selected control points, as pairs (curve, point), and the curve that new points go to.
+    """Selected control points, and the curve that new points go to.
 
     It belongs to the view: it is neither saved nor undone.
+
+    Parameters
+    ----------
+    points
+        Pairs (curve, point); whatever set it is, it is held as a `PointSet`.
+    curve
+        The curve.
     """
 
-    points: frozenset[tuple[int, int]] = frozenset()
+    points: PointSet = field(default_factory=PointSet)
     curve: int = 0
 
-    def of_curve(self, curve: int) -> list[int]:
-        """Sorted indices of the selected points of one curve."""
-        return sorted(point for c, point in self.points if c == curve)
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", PointSet.of(self.points))
 
     def within(self, document: Document) -> Selection:
         """The part of the selection that exists in a document."""
         sizes = _sizes(document)
-        points = frozenset(
-            (c, p) for c, p in self.points if c < len(sizes) and p < sizes[c]
-        )
+        points = self.points.within(sizes)
         curve = min(self.curve, max(len(sizes) - 1, 0))
-        return self if (points, curve) == (self.points, self.curve) else Selection(points, curve)
+        kept = points is self.points and curve == self.curve
+        return self if kept else Selection(points, curve)
 
 
 class Session(QObject):

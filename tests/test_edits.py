@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from app.edits import (
-    by_curve,
     counted,
     moved,
     with_moved,
@@ -24,10 +23,6 @@ def document():
 def test_names_count_the_points():
     assert counted("Move", 1) == "Move point"
     assert counted("Delete", 3) == "Delete 3 points"
-
-
-def test_points_are_grouped_by_curve():
-    assert by_curve({(1, 0), (0, 2), (0, 1)}) == {0: [1, 2], 1: [0]}
 
 
 def test_moving_points_of_several_curves(document):

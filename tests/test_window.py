@@ -231,7 +231,7 @@ def test_reversing_keeps_the_selected_points(window):
     session.select(Selection(frozenset({(0, 1)}), 0))
     place = session.document.curves[0].points[1]
     window.commands["reverse"].trigger()
-    (point,) = session.selection.of_curve(0)
+    (point,) = session.selection.points.of_curve(0)
     assert np.array_equal(session.document.curves[0].points[point], place)
     assert np.array_equal(session.document.curves[0].points, READY_POINTS_MM[::-1])
     assert session.undo_name == "Reverse curve"
