@@ -24,7 +24,7 @@ class PointSet(Set[tuple[int, int]]):
     def __init__(self, members: Mapping[int, ArrayLike] | None = None) -> None:
         self._members: dict[int, NDArray[np.intp]] = {}
         for curve, points in sorted((members or {}).items()):
-            held = np.unique(np.asarray(points, dtype=np.intp))
+            held = _distinct(np.array(points, dtype=np.intp))
             if len(held):
                 held.flags.writeable = False
                 self._members[curve] = held
@@ -99,7 +99,10 @@ class PointSet(Set[tuple[int, int]]):
         others = PointSet.of(other)
         curves = self._members.keys() | others._members.keys()
         return PointSet(
-            {curve: np.union1d(self.of_curve(curve), others.of_curve(curve)) for curve in curves}
+            {
+                curve: np.concatenate([self.of_curve(curve), others.of_curve(curve)])
+                for curve in curves
+            }
         )
 
     def __sub__(self, other: Iterable[tuple[int, int]]) -> PointSet:
@@ -113,3 +116,11 @@ class PointSet(Set[tuple[int, int]]):
 
     def __repr__(self) -> str:
         return f"PointSet({ {curve: points.tolist() for curve, points in self._members.items()} })"
+
+
+def _distinct(points: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Rising indices, each once; mostly they are so already, or two such rows in one."""
+    if (points[1:] > points[:-1]).all():
+        return points
+    points = np.sort(points, kind="stable")
+    return points[np.append(True, points[1:] > points[:-1])]
