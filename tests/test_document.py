@@ -151,6 +151,9 @@ def test_a_curve_that_is_carried_costs_nothing_of_its_size():
     expected = points + np.array([4, -3])
     expected[7] = 1, 1
     np.testing.assert_array_equal(again.points, expected)
+    for carried in (again, curve, curve.carried(Affine.shift((5.0, 6.0)))):
+        np.testing.assert_array_equal(carried.box[0], carried.points.min(axis=0))
+        np.testing.assert_array_equal(carried.box[1], carried.points.max(axis=0))
     np.testing.assert_array_equal(curve.points, points)
 
 
