@@ -233,9 +233,12 @@ def _open_window(
         # The same picture with and without a screen, and no window that flashes up.
         os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
     # Nothing that a start makes is garbage, and the search for some takes 15 ms before the first
-    # paint; `run` begins it once all is loaded.
+    # paint; `run` begins it after that.
     gc.disable()
     try:
+        from app.loading import load_qt
+
+        load_qt()
         from app.launch import run
 
         return run(path, screenshot, size, theme)

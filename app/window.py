@@ -60,10 +60,13 @@ class MainWindow(QMainWindow):
 
     Signals
     -------
+    painted()
+        The first paint is done.
     completed()
         All is loaded and shown, the plots too, some time after the first paint.
     """
 
+    painted = Signal()
     completed = Signal()
 
     session: Session
@@ -320,6 +323,7 @@ class MainWindow(QMainWindow):
         self.setWindowModified(self.session.is_modified)
 
     def _complete(self) -> None:
+        self.painted.emit()
         self.commands.tint()
         self.docks.plot(self.session)
         if self.shows_slope and self.docks.basis_plot is not None:

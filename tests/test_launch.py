@@ -20,10 +20,10 @@ def test_a_screenshot_is_silent(qtbot, tmp_path, as_in_a_terminal, capfd):
     assert capfd.readouterr() == ("", "")
 
 
-def test_the_search_for_garbage_begins_when_all_is_loaded(qtbot, tmp_path, monkeypatch):
+def test_the_search_for_garbage_begins_after_the_first_paint(qtbot, tmp_path, monkeypatch):
     searched = []
     monkeypatch.setattr(gc, "freeze", lambda: searched.append("frozen"))
-    monkeypatch.setattr(launch, "_draw", lambda window, *args: window.completed.emit() or 0)
+    monkeypatch.setattr(launch, "_draw", lambda window, *args: window.painted.emit() or 0)
     gc.disable()
     try:
         run(None, tmp_path / "window.png")

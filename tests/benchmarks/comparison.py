@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
+import os
+import re
+import subprocess
+import sys
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from statistics import median
-from time import perf_counter
+from time import perf_counter, time
+from typing import NamedTuple
 
 Rows = list[tuple[str, str, str]]
-"""Quantity, value and budget of each line of the table."""
+"""What is measured, its figure and its budget, of each line of the table."""
 
 SECONDS = 0.5
 """Time that a comparison takes, about, unless its candidates are slow."""
 
 FEWEST_ROUNDS = 5
+
+UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+
+MIB = 2**20
+
+_AMOUNT = re.compile(r"(?<![\w.])(\d[\d,.]*)\s*(times faster|\w*)")
 
 
 class Comparison:
@@ -32,15 +44,99 @@ class Comparison:
         # Short ones are repeated within a round, because a clock has its grain.
         repeats = {name: max(1, round(1e-4 / max(time, 1e-7))) for name, time in once.items()}
         turn = sum(once[name] * repeats[name] for name in candidates)
-        times: dict[str, list[float]] = {name: [] for name in candidates}
-        for _ in range(max(FEWEST_ROUNDS, round(SECONDS / turn))):
-            for name, run in candidates.items():
-                start = perf_counter()
-                for _ in range(repeats[name]):
-                    run()
-                times[name].append((perf_counter() - start) / repeats[name])
-        return {name: median(values) for name, values in times.items()}
+
+        def timed(name: str, run: Callable[[], object]) -> float:
+            start = perf_counter()
+            for _ in range(repeats[name]):
+                run()
+            return (perf_counter() - start) / repeats[name]
+
+        rounds = max(FEWEST_ROUNDS, round(SECONDS / turn))
+        return self.medians(
+            {name: lambda name=name, run=run: timed(name, run) for name, run in candidates.items()},
+            rounds,
+        )
+
+    def medians(
+        self, candidates: Mapping[str, Callable[[], float]], rounds: int
+    ) -> dict[str, float]:
+        """Median of what each candidate returns, over some rounds."""
+        figures: dict[str, list[float]] = {name: [] for name in candidates}
+        for _ in range(rounds):
+            for name, measured in candidates.items():
+                figures[name].append(measured())
+        return {name: median(values) for name, values in figures.items()}
 
     def row(self, quantity: str, value: str, budget: str = "") -> None:
         """Put a line into the table."""
         self._rows.append((quantity, value, budget))
+
+
+class Start(NamedTuple):
+    """A window that was opened: seconds until then, and resident MB, then and at their most."""
+
+    seconds: float
+    memory: float
+    peak: float
+
+
+class Starts:
+    """Opens windows in processes of their own; see `started`.
+
+    Parameters
+    ----------
+    folder
+        For settings and compiled modules. Those of the user shall neither help nor suffer, and
+        whether modules are compiled already shall not depend on what ran before.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._environment = {
+            **os.environ,
+            "NINEPOINT_SETTINGS": str(folder),
+            "PYTHONPYCACHEPREFIX": str(folder / "compiled"),
+        }
+        self._environment.pop("PYTHONDONTWRITEBYTECODE", None)
+
+    def __call__(self, *words: str) -> Start:
+        """Open a window, with the words that `started` takes."""
+        command = [sys.executable, str(Path(__file__).with_name("started.py")), *words]
+        begin = time()
+        done = subprocess.run(
+            command, env=self._environment, stdout=subprocess.PIPE, text=True, check=True
+        )
+        painted, memory, peak = map(float, done.stdout.split())
+        return Start(painted - begin, memory / MIB, peak / MIB)
+
+
+def share(value: str, budget: str) -> float | None:
+    """How much of its budget a figure takes: it holds up to 1. None without a budget.
+
+    Both are lists with commas between; the worst counts. "640 vertices, 0.4 ms" takes 0.8 of
+    "2,000, 0.5 ms", and "16 times faster" takes 0.5 of "8".
+    """
+    shares = []
+    for figure, limit in zip(value.split(", "), budget.split(", "), strict=False):
+        found, allowed = _AMOUNT.search(figure), _AMOUNT.search(limit)
+        if found and allowed:
+            size, most = (
+                float(amount[1].rstrip(".,").replace(",", "")) * UNITS.get(amount[2], 1.0)
+                for amount in (found, allowed)
+            )
+            shares.append(most / size if found[2] == "times faster" else size / most)
+    return max(shares, default=None)
+
+
+def table(rows: Rows) -> list[str]:
+    """Lines of the table; a figure beyond its budget has an exclamation mark."""
+    cells = [("what", "figure", "budget", "share of it")]
+    for quantity, value, budget in rows:
+        part = share(value, budget)
+        mark = "" if part is None else f"{part:.2f} {'!' if part > 1 else ' '}"
+        cells.append((quantity, value, budget, mark))
+    wide = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    lines = [
+        f"{what:<{wide[0]}}  {figure:>{wide[1]}}  {budget:>{wide[2]}}  {part:>{wide[3]}}".rstrip()
+        for what, figure, budget, part in cells
+    ]
+    return [lines[0], "-" * max(map(len, lines)), *lines[1:]]

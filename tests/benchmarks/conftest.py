@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+import platform
+from pathlib import Path
 
 import numpy as np
+import PySide6
 import pytest
-from comparison import Comparison, Rows
+from comparison import Comparison, Rows, Starts, table
 
 ROWS = pytest.StashKey[Rows]()
 
@@ -16,17 +19,33 @@ def comparison(request: pytest.FixtureRequest) -> Comparison:
     return Comparison(request.config.stash.setdefault(ROWS, []))
 
 
+@pytest.fixture(scope="session")
+def starts(tmp_path_factory: pytest.TempPathFactory) -> Starts:
+    return Starts(tmp_path_factory.mktemp("starts"))
+
+
 def pytest_terminal_summary(
     terminalreporter: pytest.TerminalReporter, config: pytest.Config
 ) -> None:
     rows = config.stash.get(ROWS, [])
     if not rows:
         return
-    terminalreporter.section("speed, one core")
-    wide = [max(len(row[k]) for row in [*rows, ("", "", "budget")]) for k in range(3)]
-    for quantity, value, budget in [("", "", "budget"), *rows]:
-        terminalreporter.write_line(
-            f"{quantity:<{wide[0]}}  {value:>{wide[1]}}  {budget:>{wide[2]}}"
-        )
+    terminalreporter.section("speed and memory")
+    for line in table(rows):
+        terminalreporter.write_line(line)
     kernel = os.environ.get("OPENBLAS_CORETYPE", "the processor's own")
-    terminalreporter.write_line(f"NumPy {np.__version__}, OpenBLAS kernels: {kernel}")
+    terminalreporter.write_line(
+        f"{processor()}, {os.cpu_count()} cores, {platform.system()}; Python "
+        f"{platform.python_version()}, Qt {PySide6.__version__}, NumPy {np.__version__} on one"
+        f" core, OpenBLAS kernels: {kernel}"
+    )
+
+
+def processor() -> str:
+    """Name of the processor, as far as the system tells it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
