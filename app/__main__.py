@@ -5,13 +5,18 @@ import sys
 
 
 def main() -> None:
-    """Run the command line."""
+    """Run the command line, or open the window if there is nothing on it."""
     # Read when numpy is imported: our matrices are small, and a pool of threads only delays them.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
-        from app.cli import main as command_line
+        if len(sys.argv) > 1:
+            from app.cli import main as command_line
 
-        command_line()
+            command_line()
+        else:  # there is nothing to parse, and that takes 10 ms
+            from app.entrance import main as open_at_once
+
+            open_at_once()
     except ImportError:  # of Qt, because the system lacks what it loads?
         from app import bootstrap
 

@@ -6,13 +6,10 @@ and an export neither needs a screen nor Qt's libraries.
 
 from __future__ import annotations
 
-import gc
 import json
-import os
 import re
 import sys
-from collections.abc import Sequence
-from io import TextIOWrapper
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Final, NoReturn
 
@@ -21,19 +18,7 @@ import click
 from app.commands.analyse import analyse
 from app.commands.export import export
 from app.commands.sample import sample
-from core.errors import NinepointError
-
-NAME: Final = "ninepoint"
-"""What the program is called on the command line."""
-
-USER_ERROR: Final = 2
-"""Exit status if the user can mend it: a file, an option, a full disk."""
-
-OUR_ERROR: Final = 1
-"""Exit status if the program is at fault."""
-
-INTERRUPTED: Final = 130
-"""Exit status after Ctrl+C, as of shells."""
+from app.entrance import NAME, USER_ERROR, open_window, speak_plainly, status_of, tell_words
 
 _WINDOW: Final = "window"
 """Name of the command that a call without a command means."""
@@ -89,47 +74,24 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
     ImportError
         If Qt lacks libraries of the system; `app.__main__` installs them or says which.
     """
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):  # names of files may hold what it cannot encode
-            stream.reconfigure(errors="backslashreplace")
-    sys.exit(_status(args))
-
-
-def _status(args: Sequence[str] | None) -> int:
+    speak_plainly()
     words = list(sys.argv[1:] if args is None else args)
-    tell = _tell_json if words[:1] == ["analyse"] and "--json" in words else _tell_words
+    tell = _tell_json if words[:1] == ["analyse"] and "--json" in words else tell_words
+    sys.exit(status_of(lambda: _run(words, tell), tell))
+
+
+def _run(words: list[str], tell: Callable[[str], None]) -> int:
     try:
-        result = _commands.main(args, prog_name=NAME, standalone_mode=False)
+        result = _commands.main(words, prog_name=NAME, standalone_mode=False)
     except click.UsageError as error:
         command = error.ctx.info_name if error.ctx else None
         place = f"{NAME} {command}" if command in _commands.commands else NAME
         help_of = place.removesuffix(f" {_WINDOW}")
         tell(f"{error.format_message()} ({help_of} --help shows what is possible.)")
         return USER_ERROR
-    except (click.Abort, KeyboardInterrupt):
-        tell("stopped.")
-        return INTERRUPTED
-    except NinepointError as error:
-        tell(str(error))
-        return USER_ERROR
-    except MemoryError:
-        tell("there is not enough memory for this.")
-        return USER_ERROR
-    except OSError as error:
-        if error.filename is None:  # the answer finds no reader, or no room: say no more there
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        tell(f"{error.filename or 'output'}: {error.strerror or type(error).__name__}.")
-        return USER_ERROR
-    except ImportError:
-        raise
-    except Exception as error:  # the last resort of a program that shows no traceback
-        tell(f"this is a fault of the program, please report it: {type(error).__name__}: {error}")
-        return OUR_ERROR
+    except click.Abort as stopped:
+        raise KeyboardInterrupt from stopped
     return result if isinstance(result, int) else 0
-
-
-def _tell_words(sentence: str) -> None:
-    click.echo(f"{NAME}: {sentence}", err=True)
 
 
 def _tell_json(sentence: str) -> None:
@@ -223,27 +185,9 @@ def _open_window(
         from core.formats import open_document
 
         open_document(path)  # a bad file is refused here, before there is a window
-    if screenshot is None:
-        from app.bootstrap import require_display
-
-        require_display()
-    else:
-        if screenshot.suffix.lower() != ".png":
-            raise click.UsageError(f"The picture is a PNG file; {screenshot} must end in .png.")
-        # The same picture with and without a screen, and no window that flashes up.
-        os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    # Nothing that a start makes is garbage, and the search for some takes 15 ms before the first
-    # paint; `run` begins it after that.
-    gc.disable()
-    try:
-        from app.loading import load_qt
-
-        load_qt()
-        from app.launch import run
-
-        return run(path, screenshot, size, theme)
-    finally:
-        gc.enable()
+    if screenshot is not None and screenshot.suffix.lower() != ".png":
+        raise click.UsageError(f"The picture is a PNG file; {screenshot} must end in .png.")
+    return open_window(path, screenshot, size, theme)
 
 
 def _only_file(files: tuple[Path, ...]) -> Path | None:

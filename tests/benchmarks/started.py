@@ -56,10 +56,13 @@ def open_ninepoint(until: str, files: list[str]) -> None:
     """Do what ``python3 app`` does, with an ear at the window."""
     import gc
 
-    import app.cli
+    if files:
+        from app.cli import main
+    else:
+        from app.entrance import main
     from app.loading import load_qt
 
-    gc.disable()  # as app.cli does before it imports the window
+    gc.disable()  # as app.entrance does before it imports the window
     load_qt()  # this, too
     from PySide6.QtCore import QSettings, QTimer
 
@@ -86,7 +89,8 @@ def open_ninepoint(until: str, files: list[str]) -> None:
     QSettings.setDefaultFormat(QSettings.Format.IniFormat)
     scope = QSettings.Scope.UserScope
     QSettings.setPath(QSettings.Format.IniFormat, scope, os.environ["NINEPOINT_SETTINGS"])
-    app.cli.main(files)
+    sys.argv[1:] = files
+    main()
 
 
 if __name__ == "__main__":
