@@ -9,7 +9,7 @@ the transpose of that, an (n, 2) array whose columns are contiguous.
 
 from __future__ import annotations
 
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -50,6 +50,9 @@ class LimitCurve:
         If the scheme has no unique limit.
     """
 
+    _IS_EXACT: ClassVar = True
+    """Whether tables are made of exact values, or of quick ones (`BasicLimitFunction`)."""
+
     def __init__(self, points: ArrayLike, mask: Mask, closed: bool) -> None:
         polygon = np.array(points, dtype=np.float64)
         if polygon.size == 0:
@@ -71,7 +74,7 @@ class LimitCurve:
     def _read(self, coordinates: NDArray[np.float64], mask: Mask) -> None:
         """Evaluate from now on the endless polygon (2, m), as far as the scheme reads it."""
         self.mask = mask
-        self._basis = BasicLimitFunction(mask)
+        self._basis = BasicLimitFunction(mask, self._IS_EXACT)
         self._coordinates = coordinates
         # One view for many products: to make it costs more than a small one.
         self._windows = _windows(coordinates, mask.end - mask.start + 1, self.spans)

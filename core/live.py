@@ -40,6 +40,8 @@ class LiveCurve(LimitCurve):
     `control_points`, `endless_points` and `padded` are read-only views of what moves.
     """
 
+    _IS_EXACT = False
+
     def __init__(self, points: ArrayLike, mask: Mask, closed: bool) -> None:
         super().__init__(points, mask, closed)
         self._points, self.control_points = _owned(self.control_points)

@@ -142,7 +142,7 @@ class Sampling:
         self, begin: int, levels: NDArray[np.intp], order: int
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Points or derivatives of the spans from ``begin`` on, and of the end of the last one."""
-        basis = BasicLimitFunction(self.curve.mask)
+        basis = BasicLimitFunction(self.curve.mask, is_exact=True)
         first = np.concatenate([[0], np.cumsum(1 << levels)])
         found = []
         for column in self.curve.endless_points.T:

@@ -4,10 +4,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from core.basis import BasicLimitFunction
+from core.basis import VIEWED, BasicLimitFunction
+from core.continuity import certificate
 from core.errors import NoLimitError
 from core.family import PRESETS, Parameters
 from core.mask import Mask
@@ -109,6 +110,36 @@ def test_reference_limit_stencils(parameters):
 def test_only_dyadic_places_have_an_exact_value():
     with pytest.raises(ValueError, match="dyadic"):
         BasicLimitFunction(bspline()).at(Fraction(1, 3))
+
+
+@given(convergent_members(["translated", "mirrored"]))
+def test_quick_tables_are_those_of_exact_values_to_1e_14(parameters):
+    quick = BasicLimitFunction(parameters.mask)
+    exact = BasicLimitFunction(parameters.mask, is_exact=True)
+    size = np.abs(exact.values(VIEWED)).max()
+    for level in (0, 3, VIEWED):
+        np.testing.assert_allclose(quick.values(level), exact.values(level), atol=1e-14 * size)
+        np.testing.assert_allclose(quick.table(level), exact.table(level), atol=1e-14 * size)
+
+
+@given(convergent_members(["translated", "mirrored"]))
+def test_so_are_quick_derivatives_where_there_is_one(parameters):
+    assume((certificate(parameters.mask).order or 0) >= 1)
+    quick = BasicLimitFunction(parameters.mask)
+    exact = BasicLimitFunction(parameters.mask, is_exact=True)
+    slopes = exact.values(VIEWED, 1)
+    np.testing.assert_allclose(quick.values(VIEWED, 1), slopes, atol=1e-14 * np.abs(slopes).max())
+
+
+@pytest.mark.parametrize("order", [0, 1, 2])
+def test_coarse_levels_are_views_of_the_finest(order):
+    phi = BasicLimitFunction(PRESETS["Tight"].mask)
+    finest = phi.values(VIEWED, order)
+    for level in range(VIEWED):
+        values = phi.values(level, order)
+        assert np.shares_memory(values, finest)
+        np.testing.assert_array_equal(values, finest[:: 2 ** (VIEWED - level)])
+    assert not np.shares_memory(phi.values(VIEWED + 1, order), finest)
 
 
 def test_a_scheme_without_a_unique_limit_says_so():

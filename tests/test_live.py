@@ -92,6 +92,7 @@ def test_ten_thousand_moves_add_no_error() -> None:
 def test_a_move_allocates_nothing_of_size_n(name: str, closed: bool, index: int) -> None:
     live = LiveCurve(polygon(200_000), PRESETS[name].mask, closed)
     live.move(index, (0.0, 0.0))
+    live.span_points(slice(0, 1), 5)
     tracemalloc.start()
     try:
         for part in live.move(index, (1.0, 1.0)):

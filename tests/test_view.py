@@ -265,7 +265,7 @@ def test_an_event_allocates_nothing_of_size_n() -> None:
 def test_a_scheme_that_does_not_converge_is_seen_at_a_finite_level(
     zoom: float, closed: bool
 ) -> None:
-    curve = LimitCurve(flower(3000), Parameters(100, -100, 100).mask, closed)
+    curve = LiveCurve(flower(3000), Parameters(100, -100, 100).mask, closed)
     level = outline(curve).finest
     assert level == 2
     finite = curve.points(level)
