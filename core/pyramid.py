@@ -127,8 +127,13 @@ class CurvePyramid(Pyramid):
         """See `Pyramid.places`."""
         coordinates = self.curve.endless_points.T
         held = coordinates[:, indices.ravel() + np.arange(len(self._weights))[:, None]]
-        places: NDArray[np.float64] = self._weights @ held
-        return places.reshape(2, *indices.shape)
+        places: NDArray[np.float64] = (self._weights @ held).reshape(2, *indices.shape)
+        if not self.curve.closed:
+            # The end rules hold up to rounding, which schemes that diverge enlarge.
+            first, last = self.curve.control_points[[0, -1]]
+            places[:, indices == 0] = first[:, None]
+            places[:, indices == self.spans] = last[:, None]
+        return places
 
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """See `Pyramid.spans_of`."""
