@@ -1,7 +1,7 @@
 """The panels around the canvas: where they stand at first, and what comes later.
 
-The plots come after the first paint, which they would double; report and map, hidden at first, when
-they are first seen.
+The lists and the plots come after the first paint, onto their own empty ground; report and map,
+hidden at first, when they are first seen.
 """
 
 from __future__ import annotations
@@ -41,25 +41,27 @@ class Docks:
     ----------
     window
         The window that they belong to.
-    scheme, curves, points
-        What the panels on the right hold.
-    report, atlas
-        Return what report and map hold; both are hidden at first.
+    scheme
+        What the panel on top of the right side holds.
+    curves, points, report, atlas
+        Return what the others there hold; report and map are hidden at first.
     """
 
     def __init__(
         self,
         window: QMainWindow,
         scheme: QWidget,
-        curves: QWidget,
-        points: QWidget,
+        curves: Callable[[], QWidget],
+        points: Callable[[], QWidget],
         report: Callable[[], QWidget],
         atlas: Callable[[], QWidget],
     ) -> None:
         self._window = window
         self.scheme = self._dock("Scheme", scheme)
-        self.lists = self._dock("Curves and points", _stacked(curves, points))
-        self._makers: dict[QDockWidget, Callable[[], QWidget]] = {}
+        self.lists = self._dock("Curves and points", _waiting())
+        self._makers: dict[QDockWidget, Callable[[], QWidget]] = {
+            self.lists: lambda: _stacked(curves(), points())
+        }
         self.report = self._late_dock("Report", report)
         self.map = self._late_dock("Map", atlas)
         self.basis = self._dock("Basis function", _waiting())
@@ -98,6 +100,10 @@ class Docks:
         self._fill(dock)
         dock.show()
         dock.raise_()
+
+    def fill_lists(self) -> None:
+        """Put the lists where they belong; takes 10 ms."""
+        self._fill(self.lists)
 
     def plot(self, session: Session) -> None:
         """Load pyqtgraph and put the plots where they belong; takes a third of a second."""
@@ -145,7 +151,7 @@ def _replace(dock: QDockWidget, content: QWidget) -> None:
 
 
 def _waiting() -> QWidget:
-    """What stands in a plot's place until pyqtgraph is loaded: its ground, as high as it."""
+    """What stands in a list's or a plot's place until it is made: its ground, as high as it."""
     ground = QFrame()
     ground.setAutoFillBackground(True)
     ground.setBackgroundRole(ground.palette().ColorRole.Base)

@@ -362,6 +362,21 @@ def test_the_keyboard_reaches_every_control(window):
     assert reached.issuperset(controls)
 
 
+def test_the_keyboard_reaches_the_lists_after_the_scheme(window):
+    order, widget = [], window.canvas
+    for _ in range(200):
+        order.append(widget)
+        widget = widget.nextInFocusChain()
+    told = [
+        window.scheme.preset,
+        *window.scheme.neighbours.values(),
+        window.curves.list,
+        window.points.table,
+        window.status.proof,
+    ]
+    assert sorted(told, key=order.index) == told
+
+
 def test_the_recent_menu_lists_files_and_clears(window, answers, tmp_path):
     answers.path = tmp_path / "wing & tail.ninepoint"
     window.commands["save"].trigger()
