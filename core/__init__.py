@@ -15,10 +15,12 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from core.affine import Affine
     from core.arcs import Arcs, arcs
     from core.atlas import Plane, Quantity, parameter_map, smoothest_beta
     from core.basis import BasicLimitFunction
     from core.beziers import Beziers, beziers
+    from core.blocks import Blocks
     from core.cells import Interval
     from core.continuity import Certificate, Convergence, Smoothness, certificate, smoothness
     from core.document import Curve, Document
@@ -45,9 +47,11 @@ if TYPE_CHECKING:
 
 __all__ = [
     "PRESETS",
+    "Affine",
     "Arcs",
     "BasicLimitFunction",
     "Beziers",
+    "Blocks",
     "Certificate",
     "Convergence",
     "Curve",
@@ -117,10 +121,12 @@ __all__ = [
 ]
 
 _NAMES = {
+    "affine": "Affine",
     "arcs": "Arcs arcs",
     "atlas": "Plane Quantity parameter_map smoothest_beta",
     "basis": "BasicLimitFunction",
     "beziers": "Beziers beziers",
+    "blocks": "Blocks",
     "cells": "Interval",
     "continuity": "Certificate Convergence Smoothness certificate smoothness",
     "document": "Curve Document",
