@@ -10,11 +10,12 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDockWidget, QFrame, QMainWindow, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDockWidget, QFrame, QSplitter, QVBoxLayout, QWidget
 
 if TYPE_CHECKING:
     from app.plots import BasisPlot, StepPlot
     from app.session import Session
+    from app.window import MainWindow
 
 SIDE_PX: Final = 300
 """Breadth of the panels on the right: sliders fine enough to set hundredths."""
@@ -40,30 +41,19 @@ class Docks:
     Parameters
     ----------
     window
-        The window that they belong to.
-    scheme
-        What the panel on top of the right side holds.
-    curves, points, report, atlas
-        Return what the others there hold; report and map are hidden at first.
+        The window that they belong to. Its `scheme` is there already; its `curves`, `points`,
+        `report` and `map` are asked for when they are needed.
     """
 
-    def __init__(
-        self,
-        window: QMainWindow,
-        scheme: QWidget,
-        curves: Callable[[], QWidget],
-        points: Callable[[], QWidget],
-        report: Callable[[], QWidget],
-        atlas: Callable[[], QWidget],
-    ) -> None:
+    def __init__(self, window: MainWindow) -> None:
         self._window = window
-        self.scheme = self._dock("Scheme", scheme)
+        self.scheme = self._dock("Scheme", window.scheme)
         self.lists = self._dock("Curves and points", _waiting())
         self._makers: dict[QDockWidget, Callable[[], QWidget]] = {
-            self.lists: lambda: _stacked(curves(), points())
+            self.lists: lambda: _stacked(window.curves, window.points)
         }
-        self.report = self._late_dock("Report", report)
-        self.map = self._late_dock("Map", atlas)
+        self.report = self._late_dock("Report", lambda: window.report)
+        self.map = self._late_dock("Map", lambda: window.map)
         self.basis = self._dock("Basis function", _waiting())
         self.step = self._dock("Step response", _waiting())
         self.basis_plot: BasisPlot | None = None

@@ -9,13 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import (
-    QCloseEvent,
-    QDragEnterEvent,
-    QDropEvent,
-    QGuiApplication,
-    QPaintEvent,
-)
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QPaintEvent
 from PySide6.QtWidgets import QMainWindow, QToolBar, QWidget
 
 from app.actions import TOOL_BAR, Actions
@@ -26,6 +20,7 @@ from app.files import Files
 from app.guard import guarded
 from app.menus import fill_menu_bar, open_context_menu
 from app.opening import ready_document
+from app.point_set import PointSet
 from app.session import Selection, Session
 from app.settings import STATE_VERSION, Settings, on_screen
 from app.sliders import SchemePanel
@@ -96,14 +91,7 @@ class MainWindow(QMainWindow):
         self.scheme = SchemePanel(self.session)
         self._stops: list[Callable[[], None]] = []
         self.setCentralWidget(self.canvas)
-        self.docks = Docks(
-            self,
-            self.scheme,
-            lambda: self.curves,
-            lambda: self.points,
-            lambda: self.report,
-            lambda: self.map,
-        )
+        self.docks = Docks(self)
         self.status = StatusBar(self.session, self)
         self.setStatusBar(self.status)
         self.commands = Actions(self)
@@ -227,7 +215,7 @@ class MainWindow(QMainWindow):
         if current is None:
             return
         document, selection = self.session.document, self.session.selection
-        chosen = {curve for curve, _ in selection.points} | {selection.curve}
+        chosen = {*selection.points.by_curve, selection.curve}
         curves = tuple(
             replace(curve, closed=not current.closed) if index in chosen else curve
             for index, curve in enumerate(document.curves)
@@ -245,11 +233,9 @@ class MainWindow(QMainWindow):
         turned = replace(current, points=current.points[::-1])
         document = self.session.document.with_curve(selection.curve, turned)
         self.session.edit(document, "Reverse curve")
-        points = frozenset(
-            (curve, last - point if curve == selection.curve else point)
-            for curve, point in selection.points
-        )
-        self.session.select(Selection(points, selection.curve))
+        points = dict(selection.points.by_curve)
+        points[selection.curve] = last - selection.points.of_curve(selection.curve)
+        self.session.select(Selection(PointSet(points), selection.curve))
 
     def delete_curve(self) -> None:
         """Delete the current curve with all of its points."""
