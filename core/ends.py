@@ -57,7 +57,8 @@ def extended(
     left, right = sides or reach(mask)
     count = len(points)
     if count >= far((left, right)):
-        endless = np.empty((left + count + right + closed, points.shape[1]))
+        # In memory each coordinate has a row of its own, as products want it.
+        endless = np.empty((points.shape[1], left + count + right + closed)).T
         endless[left : left + count] = points
         write_ends(endless, points, mask, closed, (left, right))
         return endless

@@ -66,8 +66,11 @@ class LimitCurve:
         self.closed = closed
         self.spans = len(polygon) if closed else max(len(polygon) - 1, 0)
         """Number of unit intervals of t: n when closed, n - 1 when open."""
-        endless = extended(polygon, mask, closed) if len(polygon) else polygon
-        coordinates = np.ascontiguousarray(endless.T)
+        self._lay_out(mask)
+
+    def _lay_out(self, mask: Mask) -> None:
+        """Make the endless polygon."""
+        coordinates = columns(self.control_points, mask, self.closed)
         coordinates.flags.writeable = False
         self._read(coordinates, mask)
 
@@ -207,6 +210,17 @@ def span_of(t: float, spans: int, closed: bool) -> tuple[int, float]:
         raise ValueError(f"t must lie between 0 and {spans}, not {t}")
     span = int(t)
     return span % spans if closed else span, t - span
+
+
+def columns(
+    points: NDArray[np.float64],
+    mask: Mask,
+    closed: bool,
+    sides: tuple[int, int] | None = None,
+) -> NDArray[np.float64]:
+    """Coordinates of `core.ends.extended`, each in a row of its own, (2, m); no view of points."""
+    endless = extended(points, mask, closed, sides) if len(points) else points.copy()
+    return np.ascontiguousarray(endless.T)
 
 
 def _check_level(level: int) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core.ends import extended, far, reach, write_ends
-from core.limit import LimitCurve
+from core.limit import LimitCurve, columns
 from core.mask import Mask
 from core.ranges import around, within
 
@@ -42,13 +42,11 @@ class LiveCurve(LimitCurve):
 
     _IS_EXACT = False
 
-    def __init__(self, points: ArrayLike, mask: Mask, closed: bool) -> None:
-        super().__init__(points, mask, closed)
-        self._points, self.control_points = _owned(self.control_points)
-        store = self.control_points
-        if len(store):
-            store = extended(store, mask, closed, _SIDES)
-        self._store, self.padded = _owned(np.ascontiguousarray(store.T))
+    def _lay_out(self, mask: Mask) -> None:
+        self._points = self.control_points
+        self._store = columns(self._points, mask, self.closed, _SIDES)
+        self._points.flags.writeable = True
+        self.control_points, self.padded = _shown(self._points), _shown(self._store)
         self._show(mask)
 
     def recast(self, mask: Mask) -> None:
@@ -118,10 +116,8 @@ class LiveCurve(LimitCurve):
         self._read(store[:, SIDE - left : store.shape[1] - SIDE + right], mask)
 
 
-def _owned(array: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Array that may be written, and a view of it that may not."""
-    array = array if array.flags.owndata else array.copy()
-    array.flags.writeable = True
+def _shown(array: NDArray[np.float64]) -> NDArray[np.float64]:
+    """View of an array that cannot be written."""
     view = array.view()
     view.flags.writeable = False
-    return array, view
+    return view
