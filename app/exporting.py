@@ -139,10 +139,11 @@ class Exporter(QObject):
         self._write(Target(path, float(tolerance)))
 
     def _write(self, target: Target) -> None:
-        from core.formats import export  # writers are not needed for the first paint
+        from core.formats import export, profile_for  # writers are not needed for the first paint
 
         try:
-            report = export(self._session.document, target.path, target.tolerance_mm)
+            profile = profile_for(target.path).within(target.tolerance_mm)
+            report = export(self._session.document, target.path, profile)
         except NinepointError as error:
             self._dialogs.error("Cannot export", str(error))
             return
@@ -175,7 +176,7 @@ class ExportDialog(QDialog):
         if settings.export_format in suffixes:
             self.choice.setCurrentIndex(suffixes.index(settings.export_format))
         self.field = NumberField("tolerance", check_tolerance)
-        self.field.set_explanation("Largest distance of the written polyline from the exact curve")
+        self.field.set_explanation("Largest distance of the written curve from the exact one")
         self.field.set_number(_remembered(settings))
         self.field.setFixedWidth(self.field.fontMetrics().horizontalAdvance("0.000000") + 18)
         self.preview = QLabel()
@@ -255,11 +256,11 @@ def trial(document: Document, form: Format, tolerance_mm: float) -> ExportReport
     NinepointError
         If the document cannot be exported so.
     """
-    from core.formats import survey
+    from core.formats import profile_for, survey
 
     if not any(curve.count for curve in document.curves):
         raise NinepointError("There is nothing to export yet: the drawing has no points.")
-    return survey(document, f"drawing.{form.suffix}", tolerance_mm)
+    return survey(document, profile_for(f"drawing.{form.suffix}").within(tolerance_mm))
 
 
 def described(report: ExportReport) -> str:

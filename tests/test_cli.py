@@ -10,7 +10,7 @@ import pytest
 from app import cli
 from core import store
 from core.family import Parameters
-from core.formats import export, open_document
+from core.formats import export, open_document, profile_for
 from drawings import letter_f
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -53,7 +53,7 @@ def window(monkeypatch):
 
 def test_export_says_what_it_wrote(folder, run):
     status, output, errors = run("export", "square.csv", "square.dxf")
-    report = export(open_document("square.csv"), "other.dxf")
+    report = export(open_document("square.csv"), "other.dxf", profile_for("other.dxf"))
     assert (status, errors) == (0, "")
     assert output == f"square.dxf: {report.summary}\n"
     assert Path("square.dxf").read_bytes() == Path("other.dxf").read_bytes()
@@ -67,7 +67,7 @@ def test_options_change_the_scheme_the_tolerance_and_the_ends(folder, run, suffi
     )
     document = open_document("square.csv", closed=False)
     document = document.with_parameters(Parameters("1/4", "-1/2", "-1/10", "mirrored"))
-    report = export(document, f"b{suffix}", 0.02)
+    report = export(document, f"b{suffix}", profile_for(f"b{suffix}").within(0.02))
     assert status == 0
     assert report.closed_contours == 0
     assert Path(f"a{suffix}").read_bytes().replace(b"<title>a<", b"<title>b<") == (
@@ -80,7 +80,7 @@ def test_parameters_that_are_not_given_are_those_of_the_drawing(folder, run):
     for name, options in (("as_is", []), ("beta", ["--beta", "-3/4"])):
         run("export", "tight.ninepoint", f"{name}.dxf", *options)
     expected = letter_f().with_parameters(Parameters("1/4", "-3/4", "1/4"))
-    export(expected, "expected.dxf")
+    export(expected, "expected.dxf", profile_for("expected.dxf"))
     assert Path("beta.dxf").read_bytes() == Path("expected.dxf").read_bytes()
     assert Path("beta.dxf").read_bytes() != Path("as_is.dxf").read_bytes()
 
@@ -174,7 +174,7 @@ def test_a_bad_option_is_named_with_status_2(folder, run, options, sentence):
 @pytest.mark.parametrize(
     ("target", "sentence"),
     [
-        ("a.pdf", "a.pdf: files that end in '.pdf' cannot be exported; the endings .svg and .dxf"),
+        ("a.pdf", "a.pdf: files that end in '.pdf' cannot be exported; the endings .svg, .dxf, "),
         ("a", "a: files without an ending cannot be exported"),
         ("missing/a.svg", "a.svg: its folder does not exist."),
         ("square.csv/a.svg", "a.svg: a part of its path is a file, not a folder."),
@@ -308,7 +308,7 @@ def test_names_that_the_output_cannot_encode_are_still_told(folder, encoding):
     name = os.fsdecode("翼".encode() + b"\xff.svg")
     done = program("-m", "app", "export", "square.csv", name, PYTHONIOENCODING=encoding)
     assert (done.returncode, done.stderr) == (0, b"")
-    assert b".svg: 24.26 x 16.17 mm, closed" in done.stdout
+    assert b".svg: 24.27 x 16.18 mm, closed, 4 cubics, " in done.stdout
     assert Path(name).exists()
 
 

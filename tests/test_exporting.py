@@ -12,7 +12,7 @@ from app.opening import ready_document
 from app.session import Session
 from app.settings import Settings
 from core.document import Document
-from core.formats import export
+from core.formats import export, profile_for
 
 
 @pytest.fixture
@@ -46,8 +46,13 @@ def type_into(field, text):
     QTest.keyClick(field, Qt.Key.Key_Tab)
 
 
-@pytest.mark.parametrize(("index", "suffix"), [(0, "svg"), (1, "dxf")])
-def test_an_export_says_before_what_it_writes(qtbot, exporter, answers, tmp_path, index, suffix):
+@pytest.mark.parametrize(
+    ("index", "suffix", "size"),
+    [(0, "svg", "99.28 \u00d7 58.34 mm"), (1, "dxf", "99.26 \u00d7 58.35 mm")],
+)
+def test_an_export_says_before_what_it_writes(
+    qtbot, exporter, answers, tmp_path, index, suffix, size
+):
     answers.path = tmp_path / f"shape.{suffix}"
     exporter.ask()
     exporter.dialog.choice.setCurrentIndex(index)
@@ -56,7 +61,7 @@ def test_an_export_says_before_what_it_writes(qtbot, exporter, answers, tmp_path
         exporter.dialog.accept()
     assert answers.suggested[-1].name == f"Untitled.{suffix}"
     assert told.args[0] == f"Exported shape.{suffix}: {promised}."
-    assert promised.startswith("99.27 \u00d7 58.35 mm, closed, ")
+    assert promised.startswith(f"{size}, closed, ")
     assert answers.path.stat().st_size > 0
 
 
@@ -66,7 +71,7 @@ def test_the_file_is_the_one_that_the_core_writes(exporter, answers, tmp_path):
     exporter.dialog.accept()
     (tmp_path / "core").mkdir()
     reference = tmp_path / "core" / "shape.svg"
-    export(exporter.session.document, reference, 0.01)
+    export(exporter.session.document, reference, profile_for(reference))
     assert answers.path.read_bytes() == reference.read_bytes()
 
 
@@ -131,7 +136,7 @@ def test_a_tolerance_that_is_nonsense_cannot_be_accepted(dialog, text):
     assert dialog.preview.text().endswith(".")
     type_into(dialog.field, "0.1")
     assert dialog.export.isEnabled()
-    assert dialog.preview.text().startswith("99.27 \u00d7 58.35 mm")
+    assert dialog.preview.text().startswith("99.37 \u00d7 58.39 mm")
 
 
 def test_enter_in_a_refused_field_does_not_export(dialog, qtbot):
@@ -141,10 +146,10 @@ def test_enter_in_a_refused_field_does_not_export(dialog, qtbot):
     assert dialog.isVisible()
 
 
-def test_a_coarser_tolerance_needs_fewer_vertices():
+def test_a_coarser_tolerance_needs_fewer_pieces():
     fine = trial(ready_document(), FORMATS[0], 0.001)
     coarse = trial(ready_document(), FORMATS[0], 0.1)
-    assert coarse.vertices < fine.vertices
+    assert coarse.entities < fine.entities
     assert "\u2264" in described(coarse)
 
 

@@ -7,7 +7,7 @@ from app.status import HELD_POINTS, SIZE_LEVEL, StatusBar, drawn_size
 from core.document import Curve, Document
 from core.errors import NoLimitError
 from core.family import PRESETS
-from core.formats import export
+from core.formats import export, named
 from core.limit import LimitCurve
 
 
@@ -19,7 +19,7 @@ def bar(qtbot):
 
 
 def test_the_size_is_that_of_the_curve_and_not_of_the_polygon(tmp_path):
-    report = export(ready_document(), tmp_path / "shape.svg", 1e-4)
+    report = export(ready_document(), tmp_path / "shape.svg", named("svg").within(1e-4))
     assert drawn_size(ready_document()) == pytest.approx(
         (report.width_mm, report.height_mm), abs=1e-3
     )

@@ -42,9 +42,10 @@ def export(
     """Write the curves of IN into OUT for other programs, at true size.
 
     IN is a .ninepoint drawing, or points in two columns (.csv, .tsv, .txt, .dat), in mm. OUT
-    ends in .svg or .dxf, which chooses the format; an existing OUT is replaced, whole or not at
-    all. Parameters that are not given are those of the drawing, or Calm (0, -1/2, 0) for points.
-    Points are closed if the last one repeats the first.
+    ends in .dxf (arcs, R2000), .svg (cubics), or in .csv, .tsv or .json (exact points, tangents
+    and curvature), which chooses the format; an existing OUT is replaced, whole or not at all,
+    after the new one was read back and compared. Parameters that are not given are those of the
+    drawing, or Calm (0, -1/2, 0) for points. Points are closed if the last one repeats the first.
     """
     from core import formats
     from core.family import exact
@@ -56,8 +57,10 @@ def export(
     )
     if target.exists() and target.samefile(source):
         raise click.UsageError("IN and OUT are the same file.")
-    report = formats.export(document, target, tolerance_mm)
+    report = formats.export(document, target, formats.profile_for(target).within(tolerance_mm))
     click.echo(f"{target}: {report.summary}")
+    for note in report.notes:
+        click.echo(f"ninepoint: {note}", err=True)
     left_out = len(document.curves) - report.contours
     if left_out:
         click.echo(f"ninepoint: {left_out} of the curves had no extent and are left out.", err=True)

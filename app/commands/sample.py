@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import click
 
 from app.commands.scheme import chosen, closing, scheme_options
 from core.errors import NinepointError
-
-if TYPE_CHECKING:
-    from core.limit import LimitCurve
 
 MAX_SAMPLES: Final = 5_000_000
 """Largest number of lines that is written."""
@@ -68,6 +64,7 @@ def sample(
     from core import atomic
     from core.continuity import smoothness
     from core.formats import open_document
+    from core.formats.tables import LIMIT_COLUMNS, cell, limit_rows
 
     document = open_document(source, closed)
     parameters = chosen(
@@ -84,10 +81,11 @@ def sample(
     if order is None or order < _NEEDED_ORDER:
         missing = "the curvature stays" if order == 1 else "tangents and curvature stay"
         click.echo(f"ninepoint: {missing} empty: C^{_NEEDED_ORDER} is not proven here.", err=True)
-    lines = ["t,x,y,dx,dy,curvature" + (",curve" if several else "")]
+    lines = [",".join(LIMIT_COLUMNS) + (",curve" if several else "")]
     for number, limit in enumerate(limits, start=1):
         ending = f",{number}" if several else ""
-        lines += [",".join(map(_cell, row)) + ending for row in _rows(limit, level, order)]
+        rows = limit_rows(limit, level).tolist()
+        lines += [",".join(map(cell, row)) + ending for row in rows]
     text = "\n".join(lines) + "\n"
     if target is None:
         click.echo(text, nl=False)
@@ -96,25 +94,3 @@ def sample(
         raise click.UsageError("IN and OUT are the same file.")
     atomic.write(target, text.encode())
     click.echo(f"{target}: {len(lines) - 1:,} points")
-
-
-def _rows(limit: LimitCurve, level: int, order: int | None) -> list[list[float]]:
-    """Lines of one curve; nan where the class that is proven, ``order``, gives no value."""
-    import numpy as np
-
-    from core.shape import curvatures, tangents
-
-    points = limit.points(level)
-    rows = np.full((len(points), 6), math.nan)
-    rows[:, 0], rows[:, 1:3] = limit.parameters(level), points
-    if order is not None and order >= 1:
-        rows[:, 3:5] = tangents(limit, level)
-    if order is not None and order >= _NEEDED_ORDER:
-        rows[:, 5] = curvatures(limit, level)
-    table: list[list[float]] = rows.tolist()
-    return table
-
-
-def _cell(value: float) -> str:
-    """Shortest text that gives the very same float again; nothing where there is no value."""
-    return "" if math.isnan(value) else repr(value)

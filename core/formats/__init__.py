@@ -3,41 +3,82 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final, Protocol
+from typing import Final
+
+import msgspec
 
 from core import atomic, store
 from core.document import Document
-from core.errors import FileError, NinepointError
-from core.formats import dxf, points, svg
+from core.errors import FileError
+from core.formats import dxf, points, svg, tables
 from core.formats.contours import Contours
+from core.formats.profiles import (
+    DEFAULT_TOLERANCE_MM,
+    ENTITIES,
+    MAX_TOLERANCE_MM,
+    MIN_TOLERANCE_MM,
+    PROFILES,
+    Profile,
+    check_tolerance,
+    named,
+)
+from core.formats.tables import Tables
+from core.formats.verify import verify
 
-DEFAULT_TOLERANCE_MM: Final = 0.01
-"""Tolerance of an export, a tenth of what a laser or a printer resolves."""
-
-MIN_TOLERANCE_MM: Final = 1e-6
-"""Finest tolerance; below it the floats of large drawings end."""
-
-MAX_TOLERANCE_MM: Final = 100.0
-"""Coarsest tolerance."""
+__all__ = [
+    "DEFAULT_TOLERANCE_MM",
+    "EXPORTED",
+    "MAX_TOLERANCE_MM",
+    "MIN_TOLERANCE_MM",
+    "OPENED",
+    "PROFILES",
+    "Contours",
+    "Encoder",
+    "ExportReport",
+    "Profile",
+    "Tables",
+    "check_tolerance",
+    "export",
+    "named",
+    "open_document",
+    "prepare",
+    "profile_for",
+    "register",
+    "survey",
+]
 
 OPENED: Final = (store.SUFFIX, *points.SUFFIXES)
 """Suffixes of the files that `open_document` reads."""
 
+Encoder = Callable[[Contours, str], bytes]
+"""What makes a file of contours and a title."""
 
-class _Writer(Protocol):
-    """What the module of a format offers."""
+_TABLES: Final = ("csv", "tsv", "json")
 
-    GUARD_DIGITS: int
+_ENCODERS: Final[dict[str, Encoder]] = {"svg": svg.encode, "dxf": dxf.encode}
+"""Encoders of the formats of contours; `register` adds those that need a screen's library."""
 
-    def encode(self, contours: Contours, title: str) -> bytes: ...
+_OWN: Final = (*_ENCODERS, *_TABLES)
 
+EXPORTED: Final = tuple("." + name for name in _OWN)
+"""Suffixes of the files that can be written without anything being registered."""
 
-_WRITERS: Final[dict[str, _Writer]] = {".svg": svg, ".dxf": dxf}
+_FOR_SUFFIX: Final = {".dxf": "laser", ".svg": "svg", ".pdf": "pdf", ".png": "png"}
+"""Names of the profiles that a suffix alone stands for."""
 
-EXPORTED: Final = tuple(_WRITERS)
-"""Suffixes of the files that `export` writes."""
+_NOUNS: Final = {
+    "arcs": "arc",
+    "polyline": "vertex",
+    "spline": "spline piece",
+    "cubics": "cubic",
+    "control points": "control point",
+    "limit points": "point",
+}
+
+_PLURALS: Final = {"vertex": "vertices"}
 
 
 @dataclass(frozen=True)
@@ -48,38 +89,48 @@ class ExportReport:
     ----------
     path
         The file.
+    profile
+        What it was asked to be.
     width_mm, height_mm
-        Extents of all contours.
+        Exact extents of all contours, arcs and cubics included.
     contours, closed_contours
         Number of contours, and how many of them are closed.
-    vertices
-        Number of vertices.
+    entities
+        Number of arcs, of Bézier curves, of pieces of splines, of vertices of polylines, or of
+        points of a table.
     deviation
         Proven bound, in mm, of the distance between the exact curves and the contours in the
-        file, the rounding of the coordinates included.
+        file, the rounding of its numbers included; 0 for control points.
+    notes
+        Sentences on what is not as one might expect.
     """
 
     path: Path
+    profile: Profile
     width_mm: float
     height_mm: float
     contours: int
     closed_contours: int
-    vertices: int
+    entities: int
     deviation: float
+    notes: tuple[str, ...] = ()
 
     @property
     def summary(self) -> str:
-        """One line: "200.00 x 24.02 mm, closed, 312 vertices, deviation <= 0.0098 mm"."""
+        """One line: "105.60 x 62.00 mm, closed, 52 arcs, deviation <= 0.0098 mm"."""
         if self.contours == 1:
             kind = "closed" if self.closed_contours else "open"
         elif self.closed_contours in (0, self.contours):
             kind = f"{self.contours} {'closed' if self.closed_contours else 'open'} contours"
         else:
             kind = f"{self.contours} contours, {self.closed_contours} of them closed"
-        return (
-            f"{self.width_mm:.2f} x {self.height_mm:.2f} mm, {kind}, {self.vertices:,} vertices,"
-            f" deviation <= {_rounded_up(self.deviation)} mm"
-        )
+        noun = _NOUNS[self.profile.entity]
+        if self.entities != 1:
+            noun = _PLURALS.get(noun, noun + "s")
+        found = f"{self.width_mm:.2f} x {self.height_mm:.2f} mm, {kind}, {self.entities:,} {noun}"
+        if self.profile.entity == "control points":
+            return found
+        return f"{found}, deviation <= {_rounded_up(self.deviation)} mm"
 
 
 def _rounded_up(value: float) -> str:
@@ -118,74 +169,135 @@ def open_document(path: str | Path, closed: bool | None = None) -> Document:
     return replace(document, curves=curves)
 
 
-def survey(
-    document: Document, path: str | Path, tolerance_mm: float = DEFAULT_TOLERANCE_MM
-) -> ExportReport:
-    """Tell what `export` with the same arguments would write, without writing it.
+def profile_for(path: str | Path) -> Profile:
+    """Profile that a file's suffix alone stands for: laser for .dxf, svg for .svg, and so on.
 
-    Parameters and errors are those of `export`.
+    Raises
+    ------
+    FileError
+        If no file of such a suffix can be written.
     """
     path = Path(path)
-    return _report(path, _contours(document, path, tolerance_mm))
+    suffix = path.suffix.lower()
+    if suffix.removeprefix(".") in _TABLES:
+        return msgspec.structs.replace(PROFILES["points"], format=suffix.removeprefix("."))
+    if suffix not in _FOR_SUFFIX or suffix.removeprefix(".") not in _ENCODERS:
+        raise _unknown(path, "exported", _written())
+    return PROFILES[_FOR_SUFFIX[suffix]]
 
 
-def export(
-    document: Document, path: str | Path, tolerance_mm: float = DEFAULT_TOLERANCE_MM
-) -> ExportReport:
+def register(name: str, encoder: Encoder) -> None:
+    """Make a format writable whose encoder lives elsewhere: PDF and PNG are Qt's.
+
+    Parameters
+    ----------
+    name
+        The format, a key of `core.formats.profiles.ENTITIES`.
+    encoder
+        Called with `Contours`, whose profile has everything that was asked for, and the title. It
+        may raise NinepointError.
+    """
+    if name not in ENTITIES:
+        raise ValueError(f"there is no format {name!r}")
+    _ENCODERS[name] = encoder
+
+
+def prepare(document: Document, profile: Profile) -> Contours | Tables:
+    """What a file of a profile shows: contours for a preview, or the tables of points.
+
+    Raises
+    ------
+    NinepointError
+        If the drawing cannot be written so.
+    """
+    return Tables.of(document, profile) if profile.is_table else Contours.of(document, profile)
+
+
+def survey(document: Document, profile: Profile, path: str | Path = "") -> ExportReport:
+    """Tell what `export` with the same arguments would write, without writing it.
+
+    Raises
+    ------
+    NinepointError
+        If the drawing cannot be written so.
+    """
+    return _report(Path(path), prepare(document, profile))
+
+
+def export(document: Document, path: str | Path, profile: Profile) -> ExportReport:
     """Write the curves of a document into a file for other programs.
+
+    The file is read back by another reader, and compared, before it takes the old one's place
+    (`core.formats.verify`); PDF and PNG, whose encoders are registered, are not.
 
     Parameters
     ----------
     document
         The drawing.
     path
-        The file; its suffix, one of `EXPORTED` in any case of letters, chooses the format. An
-        existing file is replaced, whole or not at all.
-    tolerance_mm
-        Largest distance between an exact curve and its contour in the file, from
-        `MIN_TOLERANCE_MM` to `MAX_TOLERANCE_MM`.
+        The file; its suffix, in any case of letters, is that of the profile. An existing file is
+        replaced, whole or not at all.
+    profile
+        What the file is to be.
 
     Raises
     ------
     FileError
-        If the suffix is not known or the file cannot be written.
+        If the suffix is another one, the file cannot be written, or it does not read back as the
+        drawing.
     NinepointError
-        If the tolerance is not admitted, or the drawing cannot be written with it.
+        If the drawing cannot be written with this profile.
     """
     path = Path(path)
-    contours = _contours(document, path, tolerance_mm)
-    atomic.write(path, _writer(path).encode(contours, path.stem))
-    return _report(path, contours)
+    if path.suffix.lower() != profile.suffix:
+        if path.suffix.lower() not in _written():
+            raise _unknown(path, "exported", _written())
+        raise FileError(path, f"files of the profile {profile.title} end in {profile.suffix}.")
+    content = prepare(document, profile)
+    report = _report(path, content)
+    if isinstance(content, Tables) and profile.format in _TABLES:
+        data = tables.encode(content, path.stem)
+    elif isinstance(content, Tables):
+        data = dxf.encode(content, path.stem)
+    elif profile.format in _ENCODERS:
+        data = _ENCODERS[profile.format](content, path.stem)
+    else:
+        raise FileError(path, f"{profile.format.upper()} can only be written with the window.")
+    if profile.format in _OWN:
+        verify(data, content, path)
+    atomic.write(path, data)
+    return report
 
 
-def _writer(path: Path) -> _Writer:
-    writer = _WRITERS.get(path.suffix.lower())
-    if writer is None:
-        raise _unknown(path, "exported", EXPORTED)
-    return writer
-
-
-def _contours(document: Document, path: Path, tolerance_mm: float) -> Contours:
-    writer = _writer(path)
-    if not MIN_TOLERANCE_MM <= tolerance_mm <= MAX_TOLERANCE_MM:
-        raise NinepointError(
-            f"The tolerance must lie between {MIN_TOLERANCE_MM:g} and {MAX_TOLERANCE_MM:g} mm,"
-            f" not {tolerance_mm:g}."
-        )
-    return Contours.of(document, tolerance_mm, writer.GUARD_DIGITS)
-
-
-def _report(path: Path, contours: Contours) -> ExportReport:
-    width, height = (contours.high - contours.low).tolist()
+def _report(path: Path, content: Contours | Tables) -> ExportReport:
+    width, height = content.size_mm
+    notes = list(content.notes)
+    if content.profile.version == "R12":
+        notes.append(f"DXF R12 states no unit: tell the program that it is {content.profile.unit}.")
+    if isinstance(content, Contours) and content.profile.format == "svg":
+        for contour, count in zip(content.contours, svg.path_counts(content), strict=True):
+            if count > 1:
+                notes.append(
+                    f"{contour.name!r} is cut into {count} open paths that join, as many programs"
+                    " refuse longer ones."
+                )
+    contours = content.contours if isinstance(content, Contours) else content.tables
     return ExportReport(
         path,
+        content.profile,
         width,
         height,
-        len(contours.polylines),
-        contours.closed,
-        contours.vertices,
-        contours.deviation_mm,
+        len(contours),
+        content.closed,
+        content.count,
+        content.deviation_mm,
+        tuple(notes),
     )
+
+
+def _written() -> tuple[str, ...]:
+    """Suffixes of the files that can be written now."""
+    return tuple("." + name for name in dict.fromkeys((*_ENCODERS, *_TABLES)))
 
 
 def _unknown(path: Path, verb: str, suffixes: tuple[str, ...]) -> FileError:

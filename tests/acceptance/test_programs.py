@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from app.assets import example_paths
-from core.formats import export, open_document
+from core.formats import export, open_document, profile_for
 
 TOLERANCE_MM = 0.01
 PX_PER_MM = 96 / 25.4
@@ -77,7 +77,7 @@ def drawing(request):
 def test_inkscape_opens_the_svg_at_true_size(drawing, tmp_path):
     name, document = drawing
     path = tmp_path / f"{name}.svg"
-    export(document, path, TOLERANCE_MM)
+    export(document, path, profile_for(path).within(TOLERANCE_MM))
     boxes = seen_by_inkscape(path, tmp_path)
     low, high = exact_box(document)
     error = np.abs(joined(boxes) - (high - low)).max()
@@ -89,7 +89,7 @@ def test_inkscape_opens_the_svg_at_true_size(drawing, tmp_path):
 def test_inkscape_opens_the_dxf_at_true_size(drawing, tmp_path):
     name, document = drawing
     path = tmp_path / f"{name}.dxf"
-    export(document, path, TOLERANCE_MM)
+    export(document, path, profile_for(path).within(TOLERANCE_MM))
     converted = tmp_path / "from-dxf.svg"
     with converted.open("wb") as out:
         subprocess.run(
@@ -107,7 +107,7 @@ def test_inkscape_opens_the_dxf_at_true_size(drawing, tmp_path):
 def test_freecad_opens_the_dxf_in_its_place_at_true_size_and_closed(drawing, tmp_path):
     name, document = drawing
     path = tmp_path / f"{name}.dxf"
-    export(document, path, TOLERANCE_MM)
+    export(document, path, profile_for(path).within(TOLERANCE_MM))
     script, answer = tmp_path / "look.py", tmp_path / "answer.json"
     script.write_text(FREECAD_SCRIPT.format(path=str(path), answer=str(answer)))
     subprocess.run([needed("freecadcmd"), script], capture_output=True, check=True)
