@@ -310,7 +310,7 @@ def test_loose_lines_and_arcs_become_a_closed_contour():
     sketch = read(drawing)
     (trace,) = sketch.traces
     assert trace.closed
-    assert sketch.notes == ("4 lines and curves that meet were joined into 1 contours.",)
+    assert sketch.notes == ("4 lines and curves that meet were joined into 1 contour.",)
     assert trace.deviation <= 1.01 * read_dxf.DEVIATION_MM
 
 

@@ -110,7 +110,7 @@ def decode(data: bytes, path: Path) -> Sketch:
     if len(traces) < len(walk.traces):
         joins = (
             f"{len(walk.traces):,} lines and curves that meet were joined into"
-            f" {len(traces):,} contours."
+            f" {len(traces):,} contour{'s' if len(traces) > 1 else ''}."
         )
         notes = (*notes, joins)
     return Sketch(traces, walk.unit, walk.is_unit_known, notes)

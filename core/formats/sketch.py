@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -57,6 +58,42 @@ class Trace:
         starts = self.controls[:, 0]
         return starts.copy() if self.closed else np.concatenate([starts, self.controls[-1:, 3]])
 
+    @property
+    def box(self) -> NDArray[np.float64]:
+        """Smallest and largest x and y of the cubics themselves, shape (2, 2), but for rounding."""
+        controls = self.controls
+        ends, inner = controls[:, [0, 3]], controls[:, 1:3]
+        low, high = ends.min(axis=(0, 1)), ends.max(axis=(0, 1))
+        # Only a cubic whose inner control points lie beyond can turn beyond.
+        far = ((inner < low) | (inner > high)).any(axis=(1, 2))
+        if far.any():
+            turns = _turns(controls[far])
+            low, high = np.fmin(low, turns.min(axis=0)), np.fmax(high, turns.max(axis=0))
+        corners: NDArray[np.float64] = np.stack([low, high])
+        return corners
+
+
+def _turns(controls: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values of cubics (n, 4, 2) where a coordinate is stationary, shape (2 n, 2).
+
+    A place without such a point gives a value of the cubic somewhere else.
+    """
+    p, q, r, s = (controls[:, index] for index in range(4))
+    # A third of the derivative is a + 2 b t + c t^2.
+    a, b, c = q - p, p - 2 * q + r, s - p - 3 * (r - q)
+    root = np.sqrt(np.maximum(b * b - a * c, 0.0))
+    # Of the two formulas for a root the one that does not subtract; either may divide by zero.
+    stable = -(b + np.copysign(root, b))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        places = np.concatenate([a / stable, stable / c])
+    t = np.clip(np.nan_to_num(places, nan=0.0, posinf=0.0, neginf=0.0), 0.0, 1.0)
+    u = 1 - t
+    p, q, r, s = (np.concatenate([part, part]) for part in (p, q, r, s))
+    values: NDArray[np.float64] = (
+        u**3 * p + 3 * u**2 * t * q + 3 * u * t**2 * r + t**3 * s
+    )
+    return values
+
 
 @dataclass(frozen=True, eq=False)
 class Sketch:
@@ -84,15 +121,19 @@ class Sketch:
 
     @property
     def low(self) -> NDArray[np.float64]:
-        """Smallest x and y of the control points of all cubics, in mm: no curve goes beyond."""
-        corners = [trace.controls.min(axis=(0, 1)) for trace in self.traces]
-        return np.asarray(np.min(corners, axis=0), dtype=np.float64)
+        """Smallest x and y of all curves, in mm; see `Trace.box`."""
+        return self._box[0]
 
     @property
     def high(self) -> NDArray[np.float64]:
-        """Largest x and y of the control points of all cubics, in mm."""
-        corners = [trace.controls.max(axis=(0, 1)) for trace in self.traces]
-        return np.asarray(np.max(corners, axis=0), dtype=np.float64)
+        """Largest x and y of all curves, in mm; see `Trace.box`."""
+        return self._box[1]
+
+    @cached_property
+    def _box(self) -> NDArray[np.float64]:
+        boxes = np.array([trace.box for trace in self.traces])
+        corners: NDArray[np.float64] = np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+        return corners
 
     def in_unit(self, unit: str) -> Sketch:
         """Sketch whose numbers are taken in another unit of `UNITS_MM`; so its size changes.
