@@ -70,7 +70,7 @@ def _parsed(data: bytes) -> Element | None:
 
     try:
         root: Element = fromstring(data, forbid_dtd=True)
-    except (ParseError, DefusedXmlException, ValueError, RecursionError):
+    except (ParseError, DefusedXmlException, LookupError, ValueError, RecursionError):
         return None
     return root
 

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from core.errors import NinepointError
+
 MOST_POINTS: Final = 2**17
 """Points that a comparison looks at, or divides an outline into, beyond those that it has."""
+
+_TINY: Final = 1e-12
+"""Angle below which an arc is its chord."""
 
 _LEAST: Final = 4
 """Parts of each piece, at least."""
@@ -41,6 +47,26 @@ class Readback:
     layer: str
 
 
+def numbers_in(words: str, count: int) -> NDArray[np.float64]:
+    """Numbers between white space, of which there have to be ``count``.
+
+    Raises
+    ------
+    NinepointError
+        If there are others, or something is no number.
+    """
+    with warnings.catch_warnings():
+        # What is no number ends NumPy's reading with a warning, later with an error.
+        warnings.simplefilter("error")
+        try:
+            values = np.fromstring(words, sep=" ")
+        except (DeprecationWarning, ValueError):
+            values = np.zeros(0)
+    if len(values) != count or not np.isfinite(values).all():
+        raise NinepointError("it has damaged numbers")
+    return values
+
+
 def arcs_read(
     points: NDArray[np.float64], bulges: NDArray[np.float64], closed: bool, layer: str, fine: float
 ) -> Readback:
@@ -53,12 +79,13 @@ def arcs_read(
     if not bulge.any():
         line = np.concatenate([start, end[-1:]])
         return Readback(line, 0.0, closed, count, layer)
-    # A part of an arc that turns by a leaves its chord by r (1 - cos(a/2)) <= r a^2 / 8.
+    # A part of an arc that turns by a leaves its chord by r (1 - cos(a/2)) <= r a^2 / 8,
     turn = 4 * np.arctan(np.abs(bulge))
     chord = np.hypot(*(end - start).T)
-    radius = np.divide(chord, 2 * np.sin(turn / 2), out=np.zeros_like(chord), where=turn > 0)
-    parts = _parts(radius * turn**2 / 8, fine)
-    slack = float((radius * (turn / parts) ** 2 / 8).max())
+    # and r is half of the chord over sin(a/2).
+    height = chord / 8 * turn * (turn / 2 / np.sin(np.maximum(turn / 2, _TINY)))
+    parts = _parts(height, fine)
+    slack = float((height / parts**2).max())
     piece, share = _places(parts)
     # On the circle through both ends the angles at which they are seen share out the turn.
     angle = 2 * np.arctan(bulge)[piece]
@@ -66,7 +93,7 @@ def arcs_read(
         np.sin(angle * share) * np.exp(-1j * angle * (1 - share)),
         np.sin(angle),
         out=share.astype(np.complex128),
-        where=np.abs(angle) > 0,
+        where=np.abs(angle) > _TINY,
     )
     from_ = start[piece, 0] + 1j * start[piece, 1]
     to = end[piece, 0] + 1j * end[piece, 1]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.errors import NinepointError
-from core.formats.readback import MOST_POINTS, Readback, arcs_read
+from core.formats.readback import MOST_POINTS, Readback, arcs_read, numbers_in
 
 if TYPE_CHECKING:
     from ezdxf.entities.lwpolyline import LWPolyline
@@ -33,6 +33,9 @@ _UNITS: Final = {(4, 1): "mm", (1, 0): "in"}
 """Units by ``$INSUNITS`` and ``$MEASUREMENT``."""
 
 _HEAD: Final = re.compile(rb"\n  0\n(LW)?POLYLINE\n")
+
+_COUNT: Final = re.compile(rb"AcDbPolyline\n 90\n(\d+)\n")
+"""What a polyline says of its vertices: ezdxf does not look at it, others allocate by it."""
 
 _VERTEX: Final = re.compile(rb"  0\nVERTEX\n  8\n[^\n]*\n")
 
@@ -81,12 +84,16 @@ def outlines(data: bytes, fine: float) -> tuple[str, list[Readback]]:
     if faults:
         raise NinepointError(f"ezdxf finds a fault in it: {faults[0].message}")
     marks = drawing.header.get("$INSUNITS", 0), drawing.header.get("$MEASUREMENT", -1)
-    found, polylines = [], 0
+    counts = [int(number) for number in _COUNT.findall(data)]
+    found: list[Readback] = []
+    polylines = 0
     for entity in drawing.modelspace():
         layer = str(entity.dxf.layer)
         if isinstance(entity, (LWPolyline, Polyline)):
             rows, closed = _rows(entity)
             rows = long.get(polylines, rows)
+            if isinstance(entity, LWPolyline) and counts[polylines : polylines + 1] != [len(rows)]:
+                raise NinepointError("a polyline says that it has another number of vertices")
             polylines += 1
             found.append(arcs_read(rows[:, :2], rows[:, 2], closed, layer, fine))
         elif isinstance(entity, Spline):
@@ -166,7 +173,7 @@ def _shortened(data: bytes) -> tuple[bytes, dict[int, NDArray[np.float64]]]:
 
 def _numbers(block: bytes) -> NDArray[np.float64]:
     """Rows x, y, bulge of vertices whose group codes and values alternate, line by line."""
-    values = np.fromstring(block.decode("ascii"), sep=" ")
+    values = numbers_in(block.decode("ascii"), block.count(b"\n"))
     for codes in _CODES:
         width = 2 * len(codes)
         if len(values) % width:
@@ -175,4 +182,4 @@ def _numbers(block: bytes) -> NDArray[np.float64]:
         if (table[:, ::2] == codes).all():
             bulges = table[:, -1] if codes[-1] == 42 else np.zeros(len(table))
             return np.column_stack([table[:, 1], table[:, 3], bulges])
-    raise NinepointError("the vertices of a polyline are damaged")
+    raise NinepointError("the vertices of a polyline have other group codes")

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.errors import NinepointError
-from core.formats.readback import Readback, arcs_read, cubics_read
+from core.formats.readback import Readback, arcs_read, cubics_read, numbers_in
 
 _SVG: Final = "{http://www.w3.org/2000/svg}"
 
@@ -37,7 +37,7 @@ def outlines(data: bytes, fine: float) -> tuple[str, NDArray[np.float64], list[R
 
     try:
         root: Element = fromstring(data, forbid_dtd=True)
-    except (ParseError, DefusedXmlException) as error:
+    except (ParseError, DefusedXmlException, LookupError, ValueError) as error:
         raise NinepointError(f"it is no XML ({error})") from error
     unit, size = _page(root)
     found = []
@@ -69,10 +69,9 @@ def _outline(path: Element, layer: str, fine: float) -> Readback:
     # One kind of step: then its letter is nothing but a blank between numbers.
     if not set(re.findall("[A-Z]", match[2])) <= {kind}:
         raise NinepointError("a path has lines and cubics")
-    start = np.fromstring(match[1], sep=" ")
-    steps = np.fromstring(match[2].replace(kind, " "), sep=" ")
-    if len(start) != 2 or len(steps) != match[2].count(kind) * _STEPS[kind]:
-        raise NinepointError("a path has damaged numbers")
+    start = numbers_in(match[1], 2)
+    count = match[2].count(kind) * _STEPS[kind]
+    steps = numbers_in(match[2].replace(kind, " "), count)
     points = np.concatenate([start, steps]).reshape(-1, 2) * (1.0, -1.0)
     if kind == "L":
         closed = match[3] == "Z"
