@@ -13,6 +13,7 @@ from core.affine import IDENTITY, Affine
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
+from core.profiles import Profile
 
 MAX_COORDINATE_MM: Final = 1e9
 """Largest admitted coordinate. At this size a float still resolves a tenth of a micrometre."""
@@ -223,15 +224,18 @@ class Document:
         The curves, drawn in this order.
     parameters
         The member of the family that draws all of them; Calm by default.
+    profiles
+        Export profiles that belong to the drawing, with different names.
 
     Raises
     ------
     NinepointError
-        If the curves have more than `MAX_POINTS` points in all.
+        If the curves have more than `MAX_POINTS` points in all, or two profiles the same name.
     """
 
     curves: tuple[Curve, ...] = ()
     parameters: Parameters = field(default_factory=lambda: PRESETS["Calm"])
+    profiles: tuple[Profile, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "curves", tuple(self.curves))
@@ -240,6 +244,20 @@ class Document:
             raise NinepointError(
                 f"The drawing has {total:,} control points; at most {MAX_POINTS:,} are admitted."
             )
+
+        object.__setattr__(self, "profiles", tuple(self.profiles))
+        if len({profile.name for profile in self.profiles}) < len(self.profiles):
+            raise NinepointError("Two export profiles of the drawing have the same name.")
+
+    def with_profile(self, profile: Profile) -> Document:
+        """Copy with an export profile, in place of one of the same name."""
+        others = tuple(held for held in self.profiles if held.name != profile.name)
+        return replace(self, profiles=(*others, profile))
+
+    def without_profile(self, name: str) -> Document:
+        """Copy without the export profile of a name."""
+        kept = tuple(held for held in self.profiles if held.name != name)
+        return replace(self, profiles=kept)
 
     def with_curve(self, index: int, curve: Curve) -> Document:
         """Copy with another curve at ``index``."""

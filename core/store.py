@@ -20,10 +20,11 @@ import msgspec
 import numpy as np
 from msgspec import UNSET, UnsetType
 
-from core import atomic
+from core import atomic, profiles
 from core.document import MAX_POINTS, Curve, Document
 from core.errors import FileError, NinepointError
 from core.family import Parameters
+from core.profiles import Profile
 
 SUFFIX: Final = ".ninepoint"
 """Suffix of Ninepoint's own files."""
@@ -31,8 +32,11 @@ SUFFIX: Final = ".ninepoint"
 FORMAT: Final = "ninepoint"
 """What the field "format" says, by which a foreign JSON file is told apart."""
 
-VERSION: Final = 1
-"""Version of the format that is written, and the latest that is read."""
+VERSION: Final = 2
+"""Latest version of the format that is read. It is written for drawings with export profiles of
+their own; others are written in version 1, which older programs open too."""
+
+_PLAIN_VERSION: Final = 1
 
 MAX_CURVES: Final = 100_000
 """Largest number of curves in a file."""
@@ -66,6 +70,7 @@ class _FileRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     format: str
     parameters: _SchemeRecord
     version: int
+    profiles: list[Profile] = []
     checksum: str | UnsetType = UNSET
 
 
@@ -103,10 +108,13 @@ def encode(document: Document) -> bytes:
             f'  "gamma": "{scheme.gamma}",\n'
             f'  "neighbours": "{scheme.neighbours}"\n'
             " },\n"
-            f' "version": {VERSION}\n'
-            "}\n"
         ).encode()
     )
+    if document.profiles:
+        held = b",".join(b"\n  " + profiles.encode(profile) for profile in document.profiles)
+        lines.append(b' "profiles": [' + held + b"\n ],\n")
+    version = VERSION if document.profiles else _PLAIN_VERSION
+    lines.append(f' "version": {version}\n}}\n'.encode())
     rest = b"".join(lines)
     digest = hashlib.sha256(b"{\n" + rest).hexdigest()
     return b"{\n" + _CHECKSUM_LINE.format(digest).encode() + rest
@@ -161,6 +169,7 @@ def decode(data: bytes, path: str | Path) -> Document:
         return Document(
             tuple(map(_decoded_curve, record.curves)),
             Parameters(scheme.alpha, scheme.beta, scheme.gamma, scheme.neighbours),
+            tuple(record.profiles),
         )
     except NinepointError as error:
         raise FileError(path, str(error)) from error
@@ -257,7 +266,8 @@ def save(document: Document, path: str | Path) -> None:
 
 def _are_same(one: Document, other: Document) -> bool:
     """Whether two documents are equal in every bit that a file keeps."""
-    return one.parameters == other.parameters and _keys(one.curves) == _keys(other.curves)
+    same = one.parameters == other.parameters and one.profiles == other.profiles
+    return same and _keys(one.curves) == _keys(other.curves)
 
 
 def _keys(curves: Sequence[Curve]) -> list[tuple[bytes, bool, str]]:

@@ -10,7 +10,7 @@ from core.errors import NinepointError
 from core.family import PRESETS, Parameters
 from core.flatten import Polyline
 from core.formats.contours import Contours, bulge_places
-from core.formats.profiles import PROFILES, Profile, named
+from core.profiles import PROFILES, Profile, named
 from core.splines import Spline
 from drawings import documents, extents, letter_f, tolerances
 

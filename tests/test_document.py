@@ -3,6 +3,7 @@
 import tracemalloc
 from dataclasses import replace
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,6 +13,7 @@ from core.affine import Affine
 from core.document import MAX_COORDINATE_MM, MAX_POINTS, Curve, Document
 from core.errors import NinepointError
 from core.family import PRESETS
+from core.profiles import PROFILES
 
 SQUARE = [(0, 0), (10, 0), (10, 10), (0, 10)]
 
@@ -164,6 +166,16 @@ def test_a_turned_curve_is_that_of_its_turned_points():
     np.testing.assert_allclose(curve.points, expected, atol=1e-12)
     np.testing.assert_array_equal(curve.points, curve.places(np.arange(4)))
     assert Curve(np.zeros((0, 2))).carried(turn).count == 0
+
+
+def test_profiles_of_a_drawing_have_different_names():
+    laser = PROFILES["laser"]
+    thin = msgspec.structs.replace(laser, tolerance_mm=0.002)
+    document = Document().with_profile(laser).with_profile(thin)
+    assert document.profiles == (thin,)
+    assert document.without_profile("laser").profiles == ()
+    with pytest.raises(NinepointError, match="same name"):
+        Document(profiles=(laser, thin))
 
 
 def test_a_curve_is_not_carried_off_the_sheet():

@@ -15,7 +15,7 @@ from core.errors import NinepointError
 from core.family import PRESETS
 from core.formats import dxf
 from core.formats.contours import Contours
-from core.formats.profiles import Profile, named
+from core.profiles import Profile, named
 from core.formats.tables import Tables
 from drawings import documents, letter_f
 from independent import (

@@ -11,7 +11,7 @@ from core.document import Curve, Document
 from core.formats import svg
 from core.formats.contours import Contours
 from core.formats.embedded import embedded
-from core.formats.profiles import named
+from core.profiles import named
 from drawings import documents, letter_f
 
 NAMES = ("svg", "svg-polyline")

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import NinepointError
-from core.formats.profiles import (
+from core.profiles import (
     ENTITIES,
     LAYERS,
     MAX_TOLERANCE_MM,

@@ -6,6 +6,7 @@ import sys
 from fractions import Fraction
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import given
@@ -15,6 +16,7 @@ from core import atomic, store
 from core.document import MAX_COORDINATE_MM, MAX_POINTS, Curve, Document
 from core.errors import FileError, NinepointError
 from core.family import PRESETS, Parameters
+from core.profiles import PROFILES
 
 NAME = "wing.ninepoint"
 
@@ -206,10 +208,31 @@ def test_files_of_other_kinds_are_refused_with_the_line(data):
     assert refusal(data).startswith(f"{NAME}, line 1: it is damaged, or not a Ninepoint drawing")
 
 
+def test_export_profiles_are_kept_and_others_stay_readable_for_older_programs():
+    thin = msgspec.structs.replace(PROFILES["laser"], name="thin", tolerance_mm=0.002)
+    held = DOCUMENT.with_profile(PROFILES["svg"]).with_profile(thin)
+    data = store.encode(held)
+    assert b'"version": 2' in data
+    back = store.decode(data, NAME)
+    assert back.profiles == (PROFILES["svg"], thin)
+    assert store.encode(back) == data
+    assert b'"version": 1' in store.encode(DOCUMENT)
+    assert store.encode(back.without_profile("thin").without_profile("svg")) == store.encode(
+        DOCUMENT
+    )
+
+
+def test_a_profile_that_cannot_be_is_refused():
+    data = store.encode(DOCUMENT.with_profile(PROFILES["svg"]))
+    unsigned = re.sub(rb' "checksum": "[^"]*",\n', b"", data)
+    for fault in (b'"format":"doc"', b'"colours":"svg"'):
+        assert "profiles" in refusal(unsigned.replace(b'"format":"svg"', fault))
+
+
 def test_a_newer_version_asks_for_an_update():
-    newer = store.encode(DOCUMENT).replace(b'"version": 1', b'"version": 2, "layers": []')
+    newer = store.encode(DOCUMENT).replace(b'"version": 1', b'"version": 3, "layers": []')
     assert refusal(newer) == (
-        f"{NAME}: it was written by a newer Ninepoint (format 2); update Ninepoint to open it."
+        f"{NAME}: it was written by a newer Ninepoint (format 3); update Ninepoint to open it."
     )
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from core.document import Curve, Document
 from core.formats import svg
 from core.formats.contours import Contours
-from core.formats.profiles import named
+from core.profiles import named
 from drawings import documents, extents, letter_f
 from independent import (
     chord_error,

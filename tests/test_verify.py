@@ -11,7 +11,7 @@ from core.errors import FileError
 from core.family import PRESETS
 from core.formats import dxf, svg, tables
 from core.formats.contours import Contours
-from core.formats.profiles import PROFILES, named
+from core.profiles import PROFILES, named
 from core.formats.tables import Tables
 from core.formats.verify import verify
 from drawings import letter_f

@@ -12,7 +12,7 @@ from core.errors import NinepointError
 from core.flatten import Polyline
 from core.formats import dxf, verify_dxf
 from core.formats.contours import Contour, Contours
-from core.formats.profiles import named
+from core.profiles import named
 from drawings import letter_f
 
 

@@ -15,7 +15,7 @@ from core.document import Document
 from core.errors import FileError
 from core.formats import dxf, points, svg, tables
 from core.formats.contours import Contours
-from core.formats.profiles import (
+from core.profiles import (
     DEFAULT_TOLERANCE_MM,
     ENTITIES,
     MAX_TOLERANCE_MM,
@@ -192,7 +192,7 @@ def register(name: str, encoder: Encoder) -> None:
     Parameters
     ----------
     name
-        The format, a key of `core.formats.profiles.ENTITIES`.
+        The format, a key of `core.profiles.ENTITIES`.
     encoder
         Called with `Contours`, whose profile has everything that was asked for, and the title. It
         may raise NinepointError.

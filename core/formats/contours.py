@@ -33,8 +33,8 @@ from core.flatten import Polyline, polyline
 from core.formats import decimals
 from core.formats.boxes import Shape, box_of
 from core.formats.layers import layer_names
-from core.formats.profiles import Profile
-from core.formats.profiles import decimals as decimals_of
+from core.profiles import Profile
+from core.profiles import decimals as decimals_of
 from core.limit import LimitCurve
 from core.splines import Spline, spline
 

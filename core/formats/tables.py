@@ -20,7 +20,7 @@ from core.chords import chord_constant, second_difference_norm
 from core.continuity import smoothness
 from core.document import Curve, Document
 from core.errors import NinepointError
-from core.formats.profiles import Profile
+from core.profiles import Profile
 from core.limit import MAX_LEVEL, LimitCurve
 from core.shape import curvatures, tangents
 
