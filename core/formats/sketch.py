@@ -122,12 +122,14 @@ class Sketch:
     @property
     def low(self) -> NDArray[np.float64]:
         """Smallest x and y of all curves, in mm; see `Trace.box`."""
-        return self._box[0]
+        corner: NDArray[np.float64] = self._box[0]
+        return corner
 
     @property
     def high(self) -> NDArray[np.float64]:
         """Largest x and y of all curves, in mm; see `Trace.box`."""
-        return self._box[1]
+        corner: NDArray[np.float64] = self._box[1]
+        return corner
 
     @cached_property
     def _box(self) -> NDArray[np.float64]:
