@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.camera import Camera
 from app.figure import Figure
+from app.line import Line, line_of, stride_of
 from app.spans import span_vertices
 from core.document import Curve
 from core.family import Parameters
@@ -65,6 +66,8 @@ class Drawn:
     shown
         Indices of the control points in view, shape (h,); None if they are too many, or too close
         together, to be shown.
+    strides
+        Distances in t of the cuts of outline and polygon, see `app.line.stride_of`.
     base
         What this one was made from by a few moves; None if it was made from the levels of detail.
     """
@@ -76,6 +79,7 @@ class Drawn:
     outline: Runs
     polygon: Runs
     shown: NDArray[np.intp] | None
+    strides: tuple[float, float]
     base: Drawn | None = None
 
     @property
@@ -99,14 +103,14 @@ class Drawn:
         return self.curve.count if self.curve.is_loop else 0
 
     @cached_property
-    def outlines_px(self) -> tuple[NDArray[np.float64], ...]:
-        """The parts of the limit curve that are seen, polylines."""
-        return polylines(self.outline, self.period)
+    def outline_line(self) -> Line:
+        """The parts of the limit curve that are seen, as they are stroked."""
+        return line_of(self.outline, self.period, self.strides[0])
 
     @cached_property
-    def polygons_px(self) -> tuple[NDArray[np.float64], ...]:
-        """The parts of the control polygon that are seen, polylines."""
-        return polylines(self.polygon, self.period)
+    def polygon_line(self) -> Line:
+        """The parts of the control polygon that are seen, as they are stroked."""
+        return line_of(self.polygon, self.period, self.strides[1])
 
     @property
     def limit(self) -> LiveCurve | None:
@@ -193,6 +197,7 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
         replace(outline, vertices=outline.vertices * flip + shift),
         replace(polygon, vertices=polygon.vertices * flip + shift),
         _shown(figure, camera),
+        (stride_of(outline), stride_of(polygon)),
     )
 
 
@@ -220,17 +225,6 @@ def _corners(curve: Curve, centre: NDArray[np.float64]) -> Runs:
     indices = np.arange(curve.count + curve.is_loop)
     corners = curve.places(indices % curve.count) - centre
     return Runs(corners, indices.astype(np.float64), np.array([0, len(indices)]), 0.0)
-
-
-def polylines(runs: Runs, period: int) -> tuple[NDArray[np.float64], ...]:
-    """Runs of vertices as polylines; on a loop of ``period`` spans they go on over the seam."""
-    parts, t = list(runs.runs()), runs.parameters
-    if not period or not parts or t[0] != 0 or t[-1] != period:
-        return tuple(parts)
-    if len(parts) == 1:
-        # The ends agree up to rounding; the pen shall meet itself without a cap.
-        return (np.concatenate([parts[0][:-1], parts[0][:1]]),)
-    return (np.concatenate([parts[-1][:-1], parts[0]]), *parts[1:-1])
 
 
 def _shown(figure: Figure, camera: Camera) -> NDArray[np.intp] | None:

@@ -1,20 +1,28 @@
-"""Painting the canvas: pure drawing from what `app.scene` computed; nothing here can fail."""
+"""The picture on the sheet: the things that are painted, made outside painting and kept.
+
+What did not change since the picture before is the same thing again, not only an equal one.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from functools import lru_cache
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+from operator import is_
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen, QPixmap
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QFont, QFontMetricsF
 
+from app.dirt import Key
 from app.drawn import MOST_HANDLES, Drawn
-from app.polyline import SAFE_PX, point_of, polygon_of, stroke
+from app.ink import Area, Band, Box, Dots, Grip, Handles, Ink, Ring, Stroke, Words
+from app.line import Line
 from app.scene import Overlay, Scene
-from app.style import SIZES, Palette, color
+from app.session import Selection
+from app.style import SIZES, Palette
 
 HINT_POINTS: Final = 10.5
 """Size of the words on the canvas, in typographic points."""
@@ -23,207 +31,245 @@ HINT_PADDING_PX: Final = (14.0, 8.0)
 """Room around the words, left and right, above and below."""
 
 HINT_RISE_PX: Final = 20.0
-"""Room between the words and the lower edge."""
+"""Room between the words and the edge of the sheet."""
 
 HINT_ROOM_PX: Final = 28.0
 """Room to leave free below a drawing, besides its margin, while there are words."""
 
 CROWD: Final = 500
-"""Number of control points in view beyond which they are drawn as dots, all at once."""
+"""Number of control points in view beyond which they are drawn as dots."""
 
-_RING_GAP: Final = 3.5
-"""Radius of the hover ring beyond that of the point, in pixels."""
-
-
-def pen(name: str, width: float, opacity: float = 1.0) -> QPen:
-    """Solid pen for curves and lines; its caps are round, so that the runs of a curve meet.
-
-    Its joins are mitred: at the blunt corners of a curve's chords Qt's round joins blacken single
-    pixels where the curve runs level (measured: coverage off by 0.46, mitred by 0.21).
-    """
-    return QPen(
-        color(name, opacity),
-        width,
-        Qt.PenStyle.SolidLine,
-        Qt.PenCapStyle.RoundCap,
-        Qt.PenJoinStyle.MiterJoin,
-    )
+GHOST_OPACITY: Final = 0.8
+RIBBON_OPACITY: Final = 0.34
+"""What lies behind a ghost, or under a ribbon of influence, is seen through it."""
 
 
-def paint_scene(
-    painter: QPainter,
-    scene: Scene,
-    palette: Palette,
-    view: QRectF,
-    active: int,
-    selected: frozenset[tuple[int, int]],
-    overlay: Overlay,
-    with_polygon: bool,
-) -> None:
-    """Draw curves, polygons, points and what the hand adds, from the back to the front.
+class Layer(IntEnum):
+    """What the things of a picture are, from the back to the front."""
 
-    Parameters
+    RIBBON = 0
+    GHOST = 1
+    POLYGON = 2
+    CALM = 3
+    ACTIVE = 4
+    PREVIEW_POLYGON = 5
+    PREVIEW = 6
+    PREVIEW_POINTS = 7
+    POINTS = 8
+    SELECTED = 9
+    HOVER = 10
+    GRIP = 11
+    BAND = 12
+    HINT = 13
+    NOTICE = 14
+
+
+@dataclass(frozen=True)
+class Setting:
+    """How a picture is drawn, whatever it shows; with another one nothing of it stays.
+
+    Attributes
     ----------
-    painter, scene, palette
-        Where, what, and in which colours.
+    palette
+        Colours.
+    ratio
+        Device pixels per logical pixel.
     view
-        The part of the canvas that is seen, in pixels.
-    active
-        Index of the curve that new points go to.
-    selected
-        Pairs (curve, point).
-    overlay
-        What the hand adds.
+        The part of the sheet that is painted on, in pixels.
+    font
+        Font of the sheet.
     with_polygon
         Whether control polygons and points are drawn.
     """
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    for ribbon in scene.ribbons_px:
-        _fill(painter, ribbon, palette)
-    painter.setPen(pen(palette.ghost, SIZES.polygon_width, 0.8))
-    _stroke_all(painter, scene.ghosts_px, view)
-    if with_polygon:
-        painter.setPen(pen(palette.polygon, SIZES.polygon_width))
-        for drawn in scene.curves:
-            _stroke_all(painter, drawn.polygons_px, view)
-    order = [index for index in range(len(scene.curves)) if index != active]
-    painter.setPen(pen(palette.curve, SIZES.calm_width))
-    for index in order:
-        _stroke_all(painter, scene.curves[index].outlines_px, view)
-    painter.setPen(pen(palette.curve_active, SIZES.curve_width))
-    if active < len(scene.curves):
-        _stroke_all(painter, scene.curves[active].outlines_px, view)
-    if scene.preview is not None:
-        _paint_preview(painter, scene.preview, palette, view)
-    if with_polygon:
-        for index, drawn in enumerate(scene.curves):
-            _paint_points(painter, drawn.handles_px, palette, calm=index != active)
-        _paint_selected(painter, scene, selected, palette, view)
-    _paint_overlay(painter, scene, overlay, palette)
+
+    palette: Palette
+    ratio: float
+    view: QRectF
+    font: QFont
+    with_polygon: bool
 
 
-def paint_hint(painter: QPainter, text: str, palette: Palette, view: QRectF) -> None:
-    """Draw a few words near the lower edge, on a ground of their own."""
-    box = _words_box(painter, text)
-    box.moveCenter(view.center())
-    box.moveBottom(view.bottom() - HINT_RISE_PX)
-    _paint_words(painter, text, box, palette, palette.text)
+class Picture:
+    """Things by their keys, in the order in which they are painted.
+
+    Attributes
+    ----------
+    things
+        What is painted. The dictionary is never changed, only replaced.
+    """
+
+    def __init__(self) -> None:
+        self.things: dict[Key, Ink] = {}
+        self._sources: dict[Key, tuple[object, ...]] = {}
+        self._setting: Setting | None = None
+
+    def update(
+        self,
+        setting: Setting,
+        scene: Scene,
+        selection: Selection,
+        overlay: Overlay,
+        hint: str = "",
+        notice: str = "",
+    ) -> None:
+        """Make the picture of what is shown now.
+
+        Parameters
+        ----------
+        setting
+            How it is drawn.
+        scene, selection, overlay
+            The curves, the points selected of them, and what the hand adds.
+        hint, notice
+            Words near the lower and the upper edge, or "".
+        """
+        if setting != self._setting:
+            self._setting, self._sources = setting, {}
+        known, sources = self.things, self._sources
+        self.things, self._sources = {}, {}
+
+        def put(key: Key, make: _Make, *source: object) -> None:
+            """Take the thing as it was, if it was made from the same, or make it."""
+            before = sources.get(key)
+            is_kept = before is not None and all(map(is_, before, source))
+            ink = known.get(key) if is_kept else make(setting, *source)
+            self._sources[key] = source
+            if ink is not None:
+                self.things[key] = ink
+
+        for place, outline in enumerate(scene.ribbons_px):
+            put((Layer.RIBBON, place), _ribbon, outline)
+        for index, ghost in scene.ghosts.items():
+            put((Layer.GHOST, index), _ghost, ghost)
+        _put_curves(put, setting, scene, selection)
+        for layer, ink in _overlay(setting.palette, scene, overlay):
+            self.things[layer, 0] = ink
+        for layer, text in ((Layer.HINT, hint), (Layer.NOTICE, notice)):
+            if text:
+                put((layer, 0), _words, layer, text)
 
 
-def paint_notice(painter: QPainter, text: str, palette: Palette, view: QRectF) -> None:
-    """Draw a sentence that warns near the upper edge, on a ground of its own."""
-    box = _words_box(painter, text)
-    box.moveCenter(view.center())
-    box.moveTop(view.top() + HINT_RISE_PX)
-    _paint_words(painter, text, box, palette, palette.warning)
+_Make = Callable[..., Ink | None]
+"""Maker of a thing, from the setting and what it is made from."""
+
+_Put = Callable[..., None]
 
 
-def _words_box(painter: QPainter, text: str) -> QRectF:
-    """Box around some words, somewhere; the painter takes their font."""
-    font = QFont(painter.font())
+def _put_curves(put: _Put, setting: Setting, scene: Scene, selection: Selection) -> None:
+    """Put polygons, curves and points, layer by layer."""
+    curves, active, preview = scene.curves, selection.curve, scene.preview
+    if setting.with_polygon:
+        for index, drawn in enumerate(curves):
+            put((Layer.POLYGON, index), _polygon, drawn)
+    for index, drawn in enumerate(curves):
+        if index != active:
+            put((Layer.CALM, index), _outline, drawn, True)
+    if active < len(curves):
+        put((Layer.ACTIVE, active), _outline, curves[active], False)
+    if preview is not None:
+        put((Layer.PREVIEW_POLYGON, 0), _polygon, preview)
+        put((Layer.PREVIEW, 0), _outline, preview, False)
+        put((Layer.PREVIEW_POINTS, 0), _points, preview, False)
+    if setting.with_polygon:
+        for index, drawn in enumerate(curves):
+            put((Layer.POINTS, index), _points, drawn, index != active)
+        for index, drawn in enumerate(curves):
+            put((Layer.SELECTED, index), _selected, drawn, selection.points.of_curve(index))
+
+
+def _ribbon(setting: Setting, outline: NDArray[np.float64]) -> Ink:
+    return Area(outline, setting.palette.influence, RIBBON_OPACITY)
+
+
+def _ghost(setting: Setting, line: Line) -> Ink | None:
+    return _stroke(line, setting.palette.ghost, SIZES.polygon_width, GHOST_OPACITY)
+
+
+def _polygon(setting: Setting, drawn: Drawn) -> Ink | None:
+    return _stroke(drawn.polygon_line, setting.palette.polygon, SIZES.polygon_width)
+
+
+def _outline(setting: Setting, drawn: Drawn, calm: bool) -> Ink | None:
+    if calm:
+        return _stroke(drawn.outline_line, setting.palette.curve, SIZES.calm_width)
+    return _stroke(drawn.outline_line, setting.palette.curve_active, SIZES.curve_width)
+
+
+def _stroke(line: Line, colour: str, width: float, opacity: float = 1.0) -> Ink | None:
+    return Stroke(line, colour, width, opacity) if len(line.t) else None
+
+
+def _points(setting: Setting, drawn: Drawn, calm: bool) -> Ink | None:
+    """Control points in view: as handles, or as dots where they are crowded."""
+    if drawn.shown is None or not len(drawn.shown):
+        return None
+    palette, places = setting.palette, drawn.handles_px
+    rim = palette.polygon if calm else palette.point
+    if is_crowd(places):
+        return Dots(drawn.shown, places, rim)
+    fill = palette.point_fill
+    return Handles(drawn.shown, places, rim, fill, SIZES.point_radius, setting.ratio)
+
+
+def _selected(setting: Setting, drawn: Drawn, chosen: NDArray[np.intp]) -> Ink | None:
+    """Selected points in view; of very many, those that are shown anyway."""
+    if not len(chosen):
+        return None
+    if len(chosen) > MOST_HANDLES:
+        shown = chosen[:0] if drawn.shown is None else drawn.shown
+        places = np.minimum(np.searchsorted(chosen, shown), len(chosen) - 1)
+        chosen = shown[chosen[places] == shown]
+    chosen = chosen[chosen < drawn.curve.count]
+    places_px = drawn.places_px(chosen)
+    reach = SIZES.hit_point
+    low = setting.view.left() - reach, setting.view.top() - reach
+    high = setting.view.right() + reach, setting.view.bottom() + reach
+    seen = ((places_px >= low) & (places_px <= high)).all(axis=1)
+    if not seen.any():
+        return None
+    colour = setting.palette.point_selected
+    radius = SIZES.selected_radius
+    return Handles(chosen[seen], places_px[seen], colour, colour, radius, setting.ratio)
+
+
+def _overlay(palette: Palette, scene: Scene, overlay: Overlay) -> list[tuple[Layer, Ink]]:
+    """What the hand adds in front of all curves."""
+    found: list[tuple[Layer, Ink]] = []
+    hover, grip = overlay.hover, overlay.grip
+    if hover is not None and hover.curve < len(scene.curves):
+        drawn = scene.curves[hover.curve]
+        if hover.point < drawn.curve.count:
+            x, y = drawn.places_px(np.array([hover.point]))[0].tolist()
+            found.append((Layer.HOVER, Ring(x, y, palette.hover)))
+    if grip is not None and grip.curve < len(scene.curves):
+        place = place_of(scene.curves[grip.curve], grip.t)
+        if place is not None:
+            x, y = place.tolist()
+            found.append((Layer.GRIP, Grip(x, y, palette.hover, palette.background)))
+    if overlay.rubber_band is not None:
+        left, top = np.minimum(*overlay.rubber_band).tolist()
+        right, bottom = np.maximum(*overlay.rubber_band).tolist()
+        found.append((Layer.BAND, Band(left, top, right, bottom, palette.rubber_band)))
+    return found
+
+
+def _words(setting: Setting, layer: Layer, text: str) -> Ink:
+    """Words near the lower edge, or such as warn near the upper one."""
+    font = QFont(setting.font)
     font.setPointSizeF(HINT_POINTS)
-    painter.setFont(font)
     wide, high = HINT_PADDING_PX
     size = QFontMetricsF(font).size(0, text)
-    return QRectF(0, 0, size.width() + 2 * wide, size.height() + 2 * high)
-
-
-def _paint_words(
-    painter: QPainter, text: str, box: QRectF, palette: Palette, ink: str
-) -> None:
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    painter.setPen(QPen(color(palette.ruler_line), 1.0))
-    painter.setBrush(color(palette.ruler_background, 0.94))
-    painter.drawRoundedRect(box, box.height() / 2, box.height() / 2)
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.setPen(color(ink))
-    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
-
-
-def paint_cursor_marks(painter: QPainter, palette: Palette, pos_px: QPointF) -> None:
-    """Mark the place of the mouse on both rulers."""
-    painter.setPen(QPen(color(palette.accent), 1.0))
-    x, y = int(pos_px.x()) + 0.5, int(pos_px.y()) + 0.5
-    if x > SIZES.ruler:
-        painter.drawLine(QPointF(x, 0), QPointF(x, SIZES.ruler - 1))
-    if y > SIZES.ruler:
-        painter.drawLine(QPointF(0, y), QPointF(SIZES.ruler - 1, y))
-
-
-def _fill(painter: QPainter, outline: NDArray[np.float64], palette: Palette) -> None:
-    """Fill a ribbon of influence; a part that Qt cannot hold is left out."""
-    if np.abs(outline).max() > SAFE_PX:
-        return
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(color(palette.influence, 0.34))
-    painter.drawPolygon(polygon_of(outline), Qt.FillRule.WindingFill)
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-
-
-def _paint_preview(painter: QPainter, drawn: Drawn, palette: Palette, view: QRectF) -> None:
-    painter.setPen(pen(palette.polygon, SIZES.polygon_width))
-    _stroke_all(painter, drawn.polygons_px, view)
-    painter.setPen(pen(palette.curve_active, SIZES.curve_width))
-    _stroke_all(painter, drawn.outlines_px, view)
-    _paint_points(painter, drawn.handles_px, palette, calm=False)
-
-
-def _paint_points(
-    painter: QPainter,
-    points: NDArray[np.float64],
-    palette: Palette,
-    calm: bool,
-) -> None:
-    """Draw control points in view: as handles, or as dots where they are crowded."""
-    if is_crowd(points):
-        dots = QPen(color(palette.polygon if calm else palette.point), 2 * SIZES.dot_radius)
-        painter.setPen(dots)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        painter.drawPoints(polygon_of(_sparse(points)))
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        return
-    rim = palette.polygon if calm else palette.point
-    ratio = painter.device().devicePixelRatioF()
-    _stamp(painter, _handle(rim, palette.point_fill, SIZES.point_radius, ratio), points)
-
-
-def _paint_selected(
-    painter: QPainter,
-    scene: Scene,
-    selected: frozenset[tuple[int, int]],
-    palette: Palette,
-    view: QRectF,
-) -> None:
-    places = [drawn.places_px(_seen(drawn, c, selected)) for c, drawn in enumerate(scene.curves)]
-    if not places:
-        return
-    points = _within(np.concatenate(places), view)
-    ratio = painter.device().devicePixelRatioF()
-    chosen = palette.point_selected
-    _stamp(painter, _handle(chosen, chosen, SIZES.selected_radius, ratio), points)
-
-
-def _paint_overlay(
-    painter: QPainter, scene: Scene, overlay: Overlay, palette: Palette
-) -> None:
-    if overlay.hover is not None and overlay.hover.curve < len(scene.curves):
-        drawn, point = scene.curves[overlay.hover.curve], overlay.hover.point
-        if point < drawn.curve.count:
-            _ring(painter, drawn.places_px(np.array([point]))[0], palette)
-    if overlay.grip is not None and overlay.grip.curve < len(scene.curves):
-        place = place_of(scene.curves[overlay.grip.curve], overlay.grip.t)
-        if place is not None:
-            painter.setPen(QPen(color(palette.background), SIZES.rim_width))
-            painter.setBrush(color(palette.hover))
-            painter.drawEllipse(point_of(place), SIZES.selected_radius, SIZES.selected_radius)
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-    if overlay.rubber_band is not None:
-        corner, opposite = overlay.rubber_band
-        box = QRectF(point_of(corner), point_of(opposite)).normalized()
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        painter.fillRect(box, color(palette.rubber_band, 0.10))
-        painter.setPen(QPen(color(palette.rubber_band), 1.0))
-        painter.drawRect(box)
+    box, view = QRectF(0, 0, size.width() + 2 * wide, size.height() + 2 * high), setting.view
+    box.moveCenter(view.center())
+    palette = setting.palette
+    if layer == Layer.HINT:
+        box.moveBottom(view.bottom() - HINT_RISE_PX)
+        colour = palette.text
+    else:
+        box.moveTop(view.top() + HINT_RISE_PX)
+        colour = palette.warning
+    ground: Box = box.left(), box.top(), box.right(), box.bottom()
+    return Words(text, font, ground, colour, palette)
 
 
 def is_crowd(points_px: NDArray[np.float64]) -> bool:
@@ -241,65 +287,3 @@ def place_of(drawn: Drawn, t: float) -> NDArray[np.float64] | None:
         return None
     places = drawn.vertices_px
     return np.array([np.interp(t, drawn.parameters, places[:, axis]) for axis in (0, 1)])
-
-
-def _seen(drawn: Drawn, curve: int, selected: frozenset[tuple[int, int]]) -> NDArray[np.intp]:
-    """Selected points of a curve: all, or of very many those that are shown anyway."""
-    if len(selected) <= MOST_HANDLES:
-        chosen = [point for c, point in selected if c == curve and point < drawn.curve.count]
-    else:
-        shown = [] if drawn.shown is None else drawn.shown.tolist()
-        chosen = [point for point in shown if (curve, point) in selected]
-    return np.array(chosen, dtype=np.intp)
-
-
-def _stroke_all(
-    painter: QPainter, lines: Iterable[NDArray[np.float64]], view: QRectF
-) -> None:
-    for line in lines:
-        stroke(painter, line, view)
-
-
-def _ring(painter: QPainter, place: NDArray[np.float64], palette: Palette) -> None:
-    radius = SIZES.point_radius + _RING_GAP
-    painter.setPen(QPen(color(palette.hover, 0.35), 3.0))
-    painter.drawEllipse(point_of(place), radius, radius)
-
-
-def _within(points: NDArray[np.float64], view: QRectF) -> NDArray[np.float64]:
-    """Points in view, or so close to it that their handles reach into it."""
-    reach = SIZES.hit_point
-    low = (view.left() - reach, view.top() - reach)
-    high = (view.right() + reach, view.bottom() + reach)
-    return points[((points >= low) & (points <= high)).all(axis=1)]
-
-
-def _sparse(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """At most one point for each pixel; they are dots, more would not be seen."""
-    if len(points) <= 1000:
-        return points
-    return np.unique(np.rint(points), axis=0)
-
-
-@lru_cache(maxsize=32)
-def _handle(rim: str, fill: str, radius: float, ratio: float) -> QPixmap:
-    """Picture of a control point, drawn once for each colour, size and screen."""
-    side = 2 * int(np.ceil(radius + SIZES.rim_width)) + 1
-    pixmap = QPixmap(round(side * ratio), round(side * ratio))
-    pixmap.setDevicePixelRatio(ratio)
-    pixmap.fill(Qt.GlobalColor.transparent)
-    with QPainter(pixmap) as painter:
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(color(rim), SIZES.rim_width))
-        painter.setBrush(color(fill))
-        middle = side / 2
-        painter.drawEllipse(QPointF(middle, middle), radius, radius)
-    return pixmap
-
-
-def _stamp(painter: QPainter, pixmap: QPixmap, places: Iterable[NDArray[np.float64]]) -> None:
-    """Draw a picture centred on each place, on whole device pixels, so that it stays crisp."""
-    ratio = pixmap.devicePixelRatio()
-    half = pixmap.width() / ratio / 2
-    for x, y in np.rint((np.array(places).reshape(-1, 2) - half) * ratio) / ratio:
-        painter.drawPixmap(QPointF(x, y), pixmap)

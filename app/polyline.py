@@ -1,4 +1,4 @@
-"""Polylines in pixels: clipped to what Qt can hold, thinned, and handed over in one piece."""
+"""Vertices in pixels for Qt: clipped to what it can hold, thinned, and handed over at once."""
 
 from __future__ import annotations
 
@@ -6,18 +6,16 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF
-from PySide6.QtGui import QPainter, QPolygonF
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QPolygonF
 from shiboken6 import VoidPtr
 
-SAFE_PX: Final = 1e5
-"""Largest coordinate that is handed to Qt; its rasteriser counts in 24.8 fixed point."""
+SAFE_PX: Final = 1e4
+"""Largest coordinate that is handed to Qt, and more than any screen is wide.
 
-WHOLE: Final = 512
-"""Number of vertices up to which a polyline is stroked in one piece, without any seam."""
-
-RUN: Final = 64
-"""Segments of a longer one that are stroked at a time: a wide pen's cost grows with its outline."""
+From 32,767 device pixels on Qt clips a shape to what is being painted, and what of it is seen would
+depend, in the last bits, on where one looks.
+"""
 
 POINT_BYTES: Final = 16
 """Size of Qt's point: two floats."""
@@ -26,26 +24,49 @@ DENSE: Final = 4000
 """Number of vertices above which those that fall on the same quarter pixel are merged."""
 
 
-def runs(vertices: NDArray[np.float64], limit: float = SAFE_PX) -> list[NDArray[np.float64]]:
-    """Parts of a polyline within the square of half width ``limit`` about the origin.
+def thinned(
+    vertices: NDArray[np.float64], t: NDArray[np.float64], starts: NDArray[np.intp]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
+    """Runs of vertices without those that repeat the quarter pixel before them.
+
+    They move by less than the eye can see, and a curve of a million points that fills a window is
+    left with some thousands. Few vertices stay as they are.
 
     Parameters
     ----------
-    vertices
-        Shape (n, 2), in pixels; finite.
+    vertices, t, starts
+        As in `core.runs.Runs`.
+    """
+    if len(vertices) <= DENSE:
+        return vertices, t, starts
+    quarters = np.rint(vertices * 4)
+    keep = np.ones(len(vertices), dtype=bool)
+    keep[1:] = (np.diff(quarters, axis=0) != 0).any(axis=1)
+    keep[starts[:-1]] = keep[starts[1:] - 1] = True
+    return vertices[keep], t[keep], np.append(0, np.cumsum(keep))[starts]
+
+
+def within_square(
+    vertices: NDArray[np.float64],
+    t: NDArray[np.float64],
+    starts: NDArray[np.intp],
+    limit: float = SAFE_PX,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
+    """Parts of runs of vertices within the square of half width ``limit`` about the origin.
+
+    Parameters
+    ----------
+    vertices, t, starts
+        As in `core.runs.Runs`, in pixels; finite.
     limit
         Half width of the square.
 
     Returns
     -------
-    list of ndarray
-        Polylines with at least two vertices; mostly the one that came in.
+    vertices, t, starts
+        The same of the parts, each of two vertices at least.
     """
-    if len(vertices) < 2:
-        return []
-    if np.abs(vertices).max() <= limit:
-        return [vertices]
-    start, way = vertices[:-1], np.diff(vertices, axis=0)
+    start, way, took = vertices[:-1], np.diff(vertices, axis=0), np.diff(t)
     # Liang and Barsky: the part of each segment within the square is enter <= s <= leave.
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         low, high = (-limit - start) / way, (limit - start) / way
@@ -55,30 +76,45 @@ def runs(vertices: NDArray[np.float64], limit: float = SAFE_PX) -> list[NDArray[
     enter = np.maximum(np.minimum(low, high).max(axis=1), 0.0)
     leave = np.minimum(np.maximum(low, high).min(axis=1), 1.0)
     seen = (enter <= leave) & ~outside.any(axis=1)
-    heads = np.clip(start + enter[:, None] * way, -limit, limit)
-    tails = np.clip(start + leave[:, None] * way, -limit, limit)
-    parts: list[NDArray[np.float64]] = []
-    # A new part begins where the segment before is unseen or was cut at its end.
-    fresh = seen & np.concatenate([[True], ~(seen[:-1] & (leave[:-1] == 1.0))])
+    seen[starts[1:-1] - 1] = False
+    chosen = np.flatnonzero(seen)
+    start, way, took, since = start[chosen], way[chosen], took[chosen], t[chosen]
+    enter, leave = enter[chosen], leave[chosen]
+    # A new part begins where the segment before is unseen or was cut at its end, or a run ends.
+    whole = (np.diff(chosen) == 1) & (leave[:-1] == 1.0)
+    fresh = np.concatenate([[True] * bool(len(chosen)), ~whole]).astype(bool)
     firsts = np.flatnonzero(fresh)
-    ends = np.flatnonzero(seen & np.concatenate([~seen[1:] | fresh[1:], [True]]))
-    for first, last in zip(firsts, ends, strict=True):
-        parts.append(np.concatenate([heads[first : first + 1], tails[first : last + 1]]))
-    return parts
+    tails = np.clip(start + leave[:, None] * way, -limit, limit)
+    heads = np.clip(start + enter[:, None] * way, -limit, limit)[firsts]
+    times = (since + enter * took)[firsts]
+    return (
+        np.insert(tails, firsts, heads, axis=0),
+        np.insert(since + leave * took, firsts, times),
+        np.append(firsts, len(chosen)) + np.arange(len(firsts) + 1),
+    )
 
 
-def thinned(vertices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Polyline without the vertices that repeat the quarter pixel before them.
+def area_within_square(
+    outline: NDArray[np.float64], limit: float = SAFE_PX
+) -> NDArray[np.float64]:
+    """Outline of the part of an area within the square of half width ``limit``, shape (k, 2).
 
-    It moves by less than the eye can see, and a curve of a million points that fills a window is
-    left with some thousands. Short polylines stay as they are.
+    It winds about each place within as the outline does that came in, and may run along the sides.
     """
-    if len(vertices) <= DENSE:
-        return vertices
-    quarters = np.rint(vertices * 4)
-    keep = np.ones(len(vertices), dtype=bool)
-    keep[1:-1] = (np.diff(quarters[:-1], axis=0) != 0).any(axis=1)
-    return vertices[keep]
+    for axis, sign in ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
+        room = limit - sign * outline[:, axis]
+        inside = room >= 0
+        if inside.all():
+            continue
+        # Sutherland and Hodgman: the vertices within, and the places where a side is crossed.
+        following, room_there = np.roll(outline, -1, axis=0), np.roll(room, -1)
+        crosses = inside != np.roll(inside, -1)
+        share = np.divide(room, room - room_there, out=np.zeros_like(room), where=crosses)
+        crossings = outline + share[:, None] * (following - outline)
+        crossings[:, axis] = sign * limit
+        both = np.stack([outline, crossings], axis=1).reshape(-1, 2)
+        outline = both[np.stack([inside, crosses], axis=1).ravel()]
+    return outline
 
 
 def polygon_of(vertices: NDArray[np.float64]) -> QPolygonF:
@@ -92,30 +128,6 @@ def polygon_of(vertices: NDArray[np.float64]) -> QPolygonF:
         places = np.frombuffer(buffer, dtype=np.float64)  # type: ignore[call-overload]
         places.reshape(count, 2)[:] = vertices
     return polygon
-
-
-def stroke(painter: QPainter, vertices: NDArray[np.float64], view: QRectF) -> None:
-    """Draw a polyline with the painter's pen; a long one in runs, without those out of view.
-
-    The painter must have no brush, and its pen round caps, so that the runs join.
-    """
-    for part in runs(thinned(vertices)):
-        if len(part) <= WHOLE:
-            if (part[0] == part[-1]).all():
-                painter.drawPolygon(polygon_of(part[:-1]))
-            else:
-                painter.drawPolyline(polygon_of(part))
-            continue
-        starts = np.arange(0, len(part) - 1, RUN)
-        # A run's box holds its last vertex too, which is the first one of the next run.
-        low = np.minimum.reduceat(part, starts, axis=0)
-        high = np.maximum.reduceat(part, starts, axis=0)
-        last = part[np.minimum(starts + RUN, len(part) - 1)]
-        low, high = np.minimum(low, last), np.maximum(high, last)
-        seen = (high >= (view.left(), view.top())).all(axis=1)
-        seen &= (low <= (view.right(), view.bottom())).all(axis=1)
-        for first in starts[seen]:
-            painter.drawPolyline(polygon_of(part[first : first + RUN + 1]))
 
 
 def point_of(place: NDArray[np.float64]) -> QPointF:

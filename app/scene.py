@@ -14,9 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.camera import Camera
-from app.drawn import Drawn, polylines, traced
+from app.drawn import Drawn, traced
 from app.figure import COMPARED, Figure, akin, differing
 from app.handles import CurveHit, EdgeHit, PointHit, nearest_edge, nearest_point
+from app.line import Line, line_of
+from app.point_set import PointSet
 from app.ribbons import Influence, ribbons
 from app.splice import spliced
 from core.document import Curve, Document
@@ -25,6 +27,7 @@ from core.runs import Runs
 
 MOST_NEAR: Final = 4000
 """Number of control points around the mouse beyond which none of them can be meant."""
+
 
 @dataclass(frozen=True, eq=False)
 class Overlay:
@@ -65,8 +68,6 @@ class Overlay:
 NOTHING: Final = Overlay()
 """The overlay of an idle hand."""
 
-_Ghost = tuple[NDArray[np.float64], ...]
-
 
 class Scene:
     """The drawn curves, and what the hand adds.
@@ -75,8 +76,8 @@ class Scene:
     ----------
     curves
         The curves of the document.
-    ghosts_px
-        Parts of the shape before the open gesture that differ from the present shape.
+    ghosts
+        Parts of the curves before the open gesture that differ from the present ones, by index.
     ribbons_px
         Outlines of the ribbons of influence.
     preview
@@ -87,7 +88,7 @@ class Scene:
 
     def __init__(self) -> None:
         self.curves: tuple[Drawn, ...] = ()
-        self.ghosts_px: tuple[NDArray[np.float64], ...] = ()
+        self.ghosts: dict[int, Line] = {}
         self.ribbons_px: tuple[NDArray[np.float64], ...] = ()
         self.preview: Drawn | None = None
         self.has_limit = True
@@ -96,7 +97,7 @@ class Scene:
         self._moved = False
         self._kept: dict[tuple[int, int], Drawn] = {}
         self._used: dict[tuple[int, int], Drawn] = {}
-        self._ghosts_kept: dict[int, tuple[Drawn, bytes, _Ghost]] = {}
+        self._ghosts_kept: dict[int, tuple[Drawn, bytes, Line]] = {}
 
     def update(
         self,
@@ -129,7 +130,7 @@ class Scene:
             for index, curve in enumerate(document.curves)
         )
         self.has_limit = all(drawn.figure.limit is not None for drawn in self.curves)
-        self.ghosts_px = self._ghosts(document, origin)
+        self.ghosts = self._ghosts(document, origin)
         self.ribbons_px = tuple(
             ribbon
             for influence in overlay.influences
@@ -186,14 +187,10 @@ class Scene:
 
     def points_within(
         self, corner_px: NDArray[np.float64], opposite_px: NDArray[np.float64]
-    ) -> frozenset[tuple[int, int]]:
-        """Pairs (curve, point) of the control points between two opposite corners."""
-        pairs = set[tuple[int, int]]()
-        for curve, drawn in enumerate(self.curves):
-            found = drawn.within(corner_px, opposite_px)
-            if found is not None:
-                pairs.update((curve, point) for point in found.tolist())
-        return frozenset(pairs)
+    ) -> PointSet:
+        """Control points between two opposite corners."""
+        near = [drawn.within(corner_px, opposite_px) for drawn in self.curves]
+        return PointSet({curve: found for curve, found in enumerate(near) if found is not None})
 
     def _drawn(self, curve: Curve, parameters: Parameters, before: Drawn | None) -> Drawn:
         """Curve as drawn: as it was, or by moves from the one before, or from its points."""
@@ -220,13 +217,13 @@ class Scene:
                 return drawn
         return traced(figure, self._camera, self._ratio)
 
-    def _ghosts(self, document: Document, origin: Document) -> _Ghost:
+    def _ghosts(self, document: Document, origin: Document) -> dict[int, Line]:
         """Outlines of the origin's curves where they differ from the present ones."""
         kept, self._ghosts_kept = self._ghosts_kept, {}
         if origin is document:
-            return ()
+            return {}
         recast = origin.parameters is not document.parameters
-        parts: list[NDArray[np.float64]] = []
+        ghosts: dict[int, Line] = {}
         for index, curve in enumerate(origin.curves):
             now = self.curves[index] if index < len(self.curves) else None
             if now is not None and now.curve is curve and not recast:
@@ -240,8 +237,9 @@ class Scene:
             if known is None or known[0] is not before or known[1] != sign:
                 known = before, sign, _part(before, changed)
             self._ghosts_kept[index] = known
-            parts.extend(known[2])
-        return tuple(parts)
+            ghosts[index] = known[2]
+        return ghosts
+
 
 def _near_edges(
     drawn: Drawn, pos_px: NDArray[np.float64], radius_px: float
@@ -257,15 +255,14 @@ def _near_edges(
     return about % count if drawn.curve.is_loop else about[(about >= 0) & (about < count)]
 
 
-def _part(before: Drawn, changed: NDArray[np.intp] | None) -> _Ghost:
+def _part(before: Drawn, changed: NDArray[np.intp] | None) -> Line:
     """Parts of an outline that read some control points; without knowing which, all of it."""
     if changed is None:
-        return before.outlines_px
-    if before.figure.limit is None:
-        return ()
+        return before.outline_line
     t, vertices = before.parameters, before.vertices_px
-    times, places, starts = [], [], [0]
-    for spans in before.figure.touched(changed):
+    times, places, starts = [np.zeros(0)], [np.zeros((0, 2))], [0]
+    has_limit = before.figure.limit is not None
+    for spans in before.figure.touched(changed) if has_limit else ():
         for first, after in zip(before.starts[:-1], before.starts[1:], strict=True):
             own = t[first:after]
             low, high = max(spans.start, own[0]), min(spans.stop, own[-1])
@@ -275,10 +272,8 @@ def _part(before: Drawn, changed: NDArray[np.intp] | None) -> _Ghost:
                 times.append(chosen)
                 places.append(_between(chosen, own, vertices[first:after]))
                 starts.append(starts[-1] + len(chosen))
-    if not times:
-        return ()
     cut = Runs(np.concatenate(places), np.concatenate(times), np.array(starts), 0.0)
-    return polylines(cut, before.period)
+    return line_of(cut, before.period, before.strides[0])
 
 
 def _between(

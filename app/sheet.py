@@ -7,13 +7,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, QTimer, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QRegion, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from app.camera import Camera
+from app.dirt import dirt, merged, region_of
 from app.grid import Background
 from app.guard import guarded
-from app.picture import HINT_ROOM_PX, paint_cursor_marks, paint_hint, paint_notice, paint_scene
+from app.picture import HINT_ROOM_PX, Picture, Setting
 from app.scene import NOTHING, Overlay, Scene
 from app.session import Selection, Session
 from app.style import SIZES, color, palette_of
@@ -64,6 +65,8 @@ class Sheet(QWidget):
         self._scene = Scene()
         self._background = Background()
         self._paper = QPixmap()
+        self._picture = Picture()
+        self._ground: tuple[object, ...] = ()
         self._is_stale = True
         self._shown_overlay: Overlay = NOTHING
         self._notice = ""
@@ -71,6 +74,7 @@ class Sheet(QWidget):
         self._first_document = session.document
         self._is_taught = session.undo_name is not None
         self._mouse: QPointF | None = None
+        self._marked: QPointF | None = None
         self._redraw = QTimer(self)
         self._redraw.setSingleShot(True)
         self._redraw.setInterval(0)
@@ -146,9 +150,10 @@ class Sheet(QWidget):
     def fit_selection(self) -> None:
         """Show the selected points as large as they fit; without any, the whole drawing."""
         curves = self.session.document.curves
-        points = sorted(self.session.selection.points)
-        if points:
-            self._fit(np.concatenate([curves[curve].places([point]) for curve, point in points]))
+        selected = self.session.selection.points.by_curve
+        if selected:
+            places = [curves[curve].places(points) for curve, points in selected.items()]
+            self._fit(np.concatenate(places))
         else:
             self.fit_all()
 
@@ -175,34 +180,48 @@ class Sheet(QWidget):
     def mark_mouse(self, position: QPointF | None) -> None:
         """Mark a place on the rulers, or none."""
         self._mouse = position
-        breadth = SIZES.ruler
-        self.update(QRect(0, 0, self.width(), breadth))
-        self.update(QRect(0, 0, breadth, self.height()))
+        if not self._redraw.isActive():
+            self._redraw.start()
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:
-        self._settle()
-        palette, content = palette_of(self), self._content()
-        selection = self.session.selection
+        if self._redraw.isActive() or self._ground[:1] != (self._present_setting(),):
+            # What differs outside of the event's region is painted by the next event.
+            self._renew()
+        content = self._content()
         with QPainter(self) as painter:
+            # Qt has cut the painter to the region.
             painter.drawPixmap(0, 0, self._paper)
-            if event.region().intersects(content.toRect()):
-                painter.setClipRect(content)
-                paint_scene(
-                    painter, self._scene, palette, content, selection.curve, selection.points,
-                    self._shown_overlay, self._show_polygon,
-                )  # fmt: skip
-                if words := self.words():
-                    paint_hint(painter, words, palette, content)
-                if self._notice and self.session.document.curves:
-                    paint_notice(painter, self._notice, palette, content)
-                painter.setClipping(False)
+            painter.setClipRect(content)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            self._paint_things(painter, event.region() & content.toAlignedRect())
+            painter.setClipping(False)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-            if self._mouse is not None:
-                paint_cursor_marks(painter, palette, self._mouse)
+            palette = palette_of(self)
+            if self._marked is not None:
+                for mark in _marks(self._marked):
+                    painter.fillRect(mark, color(palette.accent))
             if self.hasFocus():
                 painter.setPen(QPen(color(palette.accent), 1.0))
                 painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+
+    def _paint_things(self, painter: QPainter, region: QRegion) -> None:
+        """Paint what is seen of the picture in a region."""
+        boxes = merged(
+            [
+                (part.left(), part.top(), part.right() + 1.0, part.bottom() + 1.0)
+                for part in region  # type: ignore[attr-defined]  # the stubs do not know
+            ]
+        )
+        if not boxes:
+            return
+        rectangles = np.array(boxes)
+        low_x, low_y = rectangles[:, :2].min(axis=0).tolist()
+        high_x, high_y = rectangles[:, 2:].max(axis=0).tolist()
+        for ink in self._picture.things.values():
+            left, top, right, bottom = ink.box
+            if left <= high_x and right >= low_x and top <= high_y and bottom >= low_y:
+                ink.paint(painter, rectangles)
 
     @guarded
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -240,22 +259,56 @@ class Sheet(QWidget):
         self.look(self._camera.fitted(points_mm, (near, near, margin, below)))
 
     def _settle(self) -> None:
-        """Compute what is to be drawn, if anything has changed."""
-        ratio = self.devicePixelRatioF()
-        self._paper = self._background.pixmap(
-            self._camera, palette_of(self), ratio, self.font(), self._show_grid
-        )
+        """Compute the scene, if anything has changed."""
         if self._is_stale:
             self._is_stale = False
             session = self.session
             self._shown_overlay = self.overlay
             self._scene.update(
-                session.document, session.origin, self._camera, ratio, self._shown_overlay
-            )
+                session.document, session.origin, self._camera, self.devicePixelRatioF(),
+                self._shown_overlay,
+            )  # fmt: skip
+
+    def _present_setting(self) -> Setting:
+        """How the picture is to be drawn."""
+        return Setting(
+            palette_of(self), self.devicePixelRatioF(), self._content(), self.font(),
+            self._show_polygon,
+        )  # fmt: skip
 
     def _draw(self) -> None:
+        """Have painted what differs from what is shown; without a difference, nothing."""
+        self._renew()
+
+    def _renew(self) -> None:
+        """Make the picture of what is shown now, and have painted where it differs."""
+        things, marked = self._picture.things, self._marked
+        setting, self._marked = self._present_setting(), self._mouse
+        ground = setting, self._camera, self._show_grid, self.hasFocus()
+        is_other, is_first = ground != self._ground, not self._ground
+        self._ground = ground
+        # A screen's ratio and the colours change without a word.
+        self._is_stale |= is_other
         self._settle()
-        self.update()
+        self._paper = self._background.pixmap(
+            self._camera, setting.palette, setting.ratio, setting.font, self._show_grid
+        )
+        notice = self._notice if self.session.document.curves else ""
+        self._picture.update(
+            setting, self._scene, self.session.selection, self._shown_overlay, self.words(), notice
+        )
+        if is_other:
+            if not is_first:  # the first time all is painted anyway
+                self.update()
+            return
+        boxes = dirt(things, self._picture.things)
+        region = region_of(boxes, setting.view.toAlignedRect())
+        if marked != self._mouse:
+            for place in (marked, self._mouse):
+                for mark in () if place is None else _marks(place):
+                    region += mark
+        if not region.isEmpty():
+            self.update(region)
 
     def _on_changed(self, old: Document, new: Document) -> None:
         # The first state of a history has no name. Undo and cancel lead back to the document that
@@ -270,6 +323,13 @@ class Sheet(QWidget):
 
     def _on_selection_changed(self, old: Selection, new: Selection) -> None:
         self.refresh()
+
+
+def _marks(place: QPointF) -> list[QRect]:
+    """Where a place is marked on both rulers."""
+    x, y, breadth = int(place.x()), int(place.y()), SIZES.ruler
+    along = [QRect(x, 0, 1, breadth)] if x >= breadth else []
+    return along + ([QRect(0, y, breadth, 1)] if y >= breadth else [])
 
 
 def place_px(point: QPointF) -> NDArray[np.float64]:

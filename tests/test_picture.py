@@ -101,10 +101,10 @@ def test_ghost_and_influence_are_seen_in_a_drag_only(canvas, mouse):
     mouse.press(place)
     mouse.move(place + by(30, 40))
     assert orange(picture(canvas))
-    assert len(canvas.scene.ghosts_px) == 1
+    assert len(canvas.scene.ghosts) == 1
     mouse.release()
     assert not orange(picture(canvas))
-    assert canvas.scene.ghosts_px == ()
+    assert canvas.scene.ghosts == {}
 
 
 def test_a_curve_that_runs_level_has_no_blot(canvas):

@@ -41,7 +41,7 @@ def test_the_drawn_curve_is_the_curve_to_a_quarter_pixel(member, scale, closed):
     document = Document((Curve(BOAT, closed),), PRESETS[member])
     middle = document.curves[0].limit(document.parameters).at(5.2)
     camera = Camera(*middle, scale, 900, 600)
-    outlines = drawn(document, camera).curves[0].outlines_px
+    outlines = list(drawn(document, camera).curves[0].outline_line.pieces())
     exact = camera.to_pixels(document.curves[0].limit(document.parameters).points(10))
     seen = ((exact >= 0) & (exact <= (900, 600))).all(axis=1)
     assert seen.sum() > 10
@@ -84,19 +84,19 @@ def test_the_ghost_is_the_part_of_the_old_shape_that_changed():
     now = origin.with_curve(0, circle.moved([30], (-70, 0)))
     camera = Camera(0, 0, 5.0, 900, 600)
     scene = drawn(now, camera, origin)
-    (ghost,) = scene.ghosts_px
+    (ghost,) = scene.ghosts[0].pieces()
     exact = camera.to_pixels(circle.limit(origin.parameters).points(5))
     # The 7-point member reaches 13/2 spans, so the ghost runs from t = 23 to 37.
     assert away(ghost, exact[24 * 32 : 36 * 32]).max() < 0.3
     assert away(ghost, exact[: 20 * 32]).min() > 5
-    assert drawn(now, camera, now).ghosts_px == ()
+    assert drawn(now, camera, now).ghosts == {}
 
 
 def test_the_ghost_of_other_parameters_is_the_whole_old_shape():
     origin = boat()
     scene = drawn(origin.with_parameters(PRESETS["Lagrange"]), CAMERA, origin)
-    (ghost,) = scene.ghosts_px
-    np.testing.assert_array_equal(ghost, *drawn(origin).curves[0].outlines_px)
+    (ghost,) = scene.ghosts[0].pieces()
+    np.testing.assert_array_equal(ghost, *drawn(origin).curves[0].outline_line.pieces())
 
 
 def test_the_ribbon_is_as_broad_as_the_curve_follows_the_hand():
@@ -116,7 +116,7 @@ def test_the_ribbon_is_as_broad_as_the_curve_follows_the_hand():
 def test_all_weights_1_give_a_ribbon_of_full_breadth_all_around():
     scene = drawn(boat(), overlay=following(*np.ones(8)))
     (ribbon,) = scene.ribbons_px
-    (outline,) = drawn(boat()).curves[0].outlines_px
+    (outline,) = drawn(boat()).curves[0].outline_line.pieces()
     assert away(outline, ribbon).min() == pytest.approx(SIZES.ribbon_width, abs=0.5)
 
 
@@ -131,7 +131,7 @@ def test_few_points(count, closed):
     scene = drawn(Document((curve,)), overlay=following(*np.ones(count)))
     assert len(scene.curves[0].points_px) == count
     if count == 2:
-        (outline,) = scene.curves[0].outlines_px
+        (outline,) = scene.curves[0].outline_line.pieces()
         np.testing.assert_allclose(outline[[0, -1]], scene.curves[0].points_px)
 
 
@@ -139,7 +139,7 @@ def test_few_points(count, closed):
 def test_absurd_parameters_stay_finite(neighbours):
     document = boat().with_parameters(Parameters(100, 100, 100, neighbours))
     scene = drawn(document, origin=boat(), overlay=following(*np.ones(8)))
-    for part in (scene.curves[0].vertices_px, *scene.ribbons_px, *scene.ghosts_px):
+    for part in (scene.curves[0].vertices_px, *scene.ribbons_px, *scene.ghosts[0].pieces()):
         assert np.isfinite(part).all()
     assert len(scene.curves[0].vertices_px) <= BUDGET
 
@@ -227,7 +227,7 @@ def test_a_long_curve_has_few_vertices_at_any_zoom():
     for scale in (0.1, 5.0, 500.0, 5e5):
         (seen,) = drawn(document, Camera(40, 0, scale, 900, 600)).curves
         assert len(seen.vertices_px) <= 2000
-        assert sum(len(line) for line in seen.polygons_px) <= 2000
+        assert sum(len(line) for line in seen.polygon_line.pieces()) <= 2000
 
 
 def test_a_ghost_over_the_seam_is_one_line():
@@ -235,7 +235,7 @@ def test_a_ghost_over_the_seam_is_one_line():
     circle = Curve(50 * np.stack([np.cos(angle), np.sin(angle)], axis=-1))
     origin = Document((circle,))
     now = origin.with_curve(0, circle.moved([0], (70, 0)))
-    (ghost,) = drawn(now, Camera(0, 0, 5.0, 900, 600), origin).ghosts_px
+    (ghost,) = drawn(now, Camera(0, 0, 5.0, 900, 600), origin).ghosts[0].pieces()
     assert np.hypot(*np.diff(ghost, axis=0).T).max() < 50
 
 
@@ -258,13 +258,13 @@ def test_moves_drawn_by_splices_are_the_curve_to_a_quarter_pixel():
                 limit = curve.limit(document.parameters)
                 exact = camera.to_pixels(limit.points(6))
                 seen = ((exact >= 0) & (exact <= (900, 600))).all(axis=1)
-                found = [away(line, exact[seen]) for line in now.outlines_px]
+                found = [away(line, exact[seen]) for line in now.outline_line.pieces()]
                 assert np.min(found, axis=0).max() <= 0.25
-                back = [away(exact, line[::7]) for line in now.outlines_px]
+                back = [away(exact, line[::7]) for line in now.outline_line.pieces()]
                 assert np.concatenate(back).max() <= 1.0
                 polygon = camera.to_pixels(curve.points)
                 seen = ((polygon >= 0) & (polygon <= (900, 600))).all(axis=1)
-                found = [away(line, polygon[seen]) for line in now.polygons_px]
+                found = [away(line, polygon[seen]) for line in now.polygon_line.pieces()]
                 assert np.min(found, axis=0).max() <= 0.25
                 np.testing.assert_array_equal(
                     now.shown, drawn(document, camera).curves[0].shown

@@ -1,0 +1,98 @@
+"""Where two pictures differ: a few rectangles, outside of which they are the same in every bit.
+
+Notes
+-----
+Theorem: let pictures be painted thing by thing in the order of their keys. Outside the union of the
+boxes that `app.ink.Ink.unlike` tells of the things of one key, and of the boxes of those that only
+one of the two has, both pictures are the same.
+
+Proof. At a pixel outside, a thing of both leaves the same ink in either, and a thing of only one
+leaves none. What is left is the same ink in the same order, on the same ground. ∎
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from PySide6.QtCore import QRect
+from PySide6.QtGui import QRegion
+
+from app.ink import Box, Ink
+
+Key = tuple[int, int]
+"""Layer, and place within the layer: pictures are painted in rising order."""
+
+MOST_RECTANGLES: Final = 12
+"""Number of rectangles of a region beyond which they are taken together; Qt pays for each."""
+
+WASTE_PX2: Final = 4000.0
+"""Area that two boxes may have more together than apart; as much is painted as fast as a rectangle
+is dealt with."""
+
+WASTE: Final = 1.25
+"""Share of their area that two boxes may have together."""
+
+
+def dirt(before: Mapping[Key, Ink], now: Mapping[Key, Ink]) -> list[Box]:
+    """A few boxes outside of which two pictures are the same.
+
+    Parameters
+    ----------
+    before, now
+        The things of each picture by their keys, in rising order.
+    """
+    boxes: list[Box] = []
+    for key, ink in now.items():
+        known = before.get(key)
+        if known is None:
+            boxes.append(ink.box)
+        elif known is not ink:
+            boxes.extend(known.unlike(ink))
+    boxes.extend(ink.box for key, ink in before.items() if key not in now)
+    return merged(boxes)
+
+
+def merged(boxes: list[Box]) -> list[Box]:
+    """At most `MOST_RECTANGLES` boxes that hold all; those that overlap or are near go together."""
+    found: list[Box] = []
+    for box in boxes:
+        if box[0] > box[2]:
+            continue  # nothing is in it
+        rest = []
+        for other in found:
+            both = _both(box, other)
+            if _area(both) <= WASTE * (_area(box) + _area(other)) + WASTE_PX2:
+                box = both
+            else:
+                rest.append(other)
+        found = [*rest, box]
+    if len(found) <= MOST_RECTANGLES:
+        return found
+    all_of_them = found[0]
+    for box in found:
+        all_of_them = _both(all_of_them, box)
+    return [all_of_them]
+
+
+def region_of(boxes: list[Box], within: QRect) -> QRegion:
+    """Whole pixels of a rectangle that some boxes touch."""
+    left, top, right, bottom = within.left(), within.top(), within.right(), within.bottom()
+    region = QRegion()
+    for box in boxes:
+        # A box may be far larger than what whole numbers of Qt can hold.
+        x, y = max(int(max(box[0], left - 1)), left), max(int(max(box[1], top - 1)), top)
+        after_x, after_y = int(min(box[2], right)) + 1, int(min(box[3], bottom)) + 1
+        if x < after_x and y < after_y:
+            region += QRect(x, y, after_x - x, after_y - y)
+    return region
+
+
+def _both(one: Box, two: Box) -> Box:
+    return (
+        min(one[0], two[0]), min(one[1], two[1]), max(one[2], two[2]), max(one[3], two[3])
+    )  # fmt: skip
+
+
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])
