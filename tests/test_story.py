@@ -13,6 +13,7 @@ from app.assets import resources
 from app.dialogs import Answer
 from app.window import MainWindow
 from core import store
+from independent import farthest, seen_by_ezdxf, seen_by_svgpathtools
 from mouse import Mouse, by
 
 TOLERANCE_MM = 0.01
@@ -62,26 +63,15 @@ def exact_box(document):
 
 
 def svg_points(path):
-    """Vertices of the only path of an SVG, in mm, y up again."""
+    """Points of the only path of an SVG, in mm, y up again."""
     root = ET.parse(path).getroot()
     width, height = root.get("width"), root.get("height")
     assert width.endswith("mm")
     assert height.endswith("mm")
     assert root.get("viewBox").split()[2:] == [width[:-2], height[:-2]]
-    (shape,) = root.iter("{http://www.w3.org/2000/svg}path")
-    words = shape.get("d").replace("M", " M ").replace("L", " L ").replace("Z", " Z ").split()
-    assert words[0] == "M"
-    assert words[-1] == "Z"
-    numbers = [float(w) for word in words for w in word.split(",") if w not in ("M", "L", "Z", "")]
-    return np.array(numbers).reshape(-1, 2) * (1, -1)
-
-
-def furthest(places, outline):
-    """Largest distance of the places from a closed outline."""
-    way = np.roll(outline, -1, axis=0) - outline
-    off = places[:, None] - outline
-    share = np.clip((off * way).sum(axis=2) / (way**2).sum(axis=1), 0, 1)
-    return np.hypot(*(off - share[..., None] * way).T).min(axis=0).max()
+    ((points, closed),) = seen_by_svgpathtools(path.read_bytes())
+    assert closed
+    return points
 
 
 def signed_area(outline):
@@ -132,7 +122,7 @@ def test_open_drag_slide_undo_redo_save_and_export(window, qtbot, tmp_path):
     assert (drawing.header["$INSUNITS"], drawing.header["$MEASUREMENT"]) == (4, 1)
     (line,) = drawing.modelspace()
     assert (line.dxftype(), line.closed) == ("LWPOLYLINE", True)
-    in_dxf = np.array([point[:2] for point in line.get_points()])
+    ((in_dxf, _, _),) = seen_by_ezdxf((tmp_path / "wing.dxf").read_bytes(), TOLERANCE_MM / 10)
     np.testing.assert_allclose(in_dxf.min(axis=0), low, atol=TOLERANCE_MM)
     np.testing.assert_allclose(in_dxf.max(axis=0), high, atol=TOLERANCE_MM)
 
@@ -141,8 +131,8 @@ def test_open_drag_slide_undo_redo_save_and_export(window, qtbot, tmp_path):
     # The same outline in the same direction: neither file is mirrored, y is up in the DXF. Their
     # decimals differ, so that their vertices need not be the same.
     in_svg += in_dxf.min(axis=0) - in_svg.min(axis=0)
-    assert furthest(in_svg, in_dxf) <= 4 * TOLERANCE_MM
-    assert furthest(in_dxf, in_svg) <= 4 * TOLERANCE_MM
+    assert farthest(in_svg, in_dxf) <= 4 * TOLERANCE_MM
+    assert farthest(in_dxf, in_svg) <= 4 * TOLERANCE_MM
     assert signed_area(in_svg) == pytest.approx(signed_area(in_dxf), rel=0.01)
     highest = dragged.curves[0].points[:, 1].argmax()
     leading = dragged.curves[0].points[highest, 0]
