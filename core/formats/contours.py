@@ -33,9 +33,9 @@ from core.flatten import Polyline, polyline
 from core.formats import decimals
 from core.formats.boxes import Shape, box_of
 from core.formats.layers import layer_names
+from core.limit import LimitCurve
 from core.profiles import Profile
 from core.profiles import decimals as decimals_of
-from core.limit import LimitCurve
 from core.splines import Spline, spline
 
 GUARD_DIGITS: Final = {"dxf": 4}

@@ -20,8 +20,8 @@ from core.chords import chord_constant, second_difference_norm
 from core.continuity import smoothness
 from core.document import Curve, Document
 from core.errors import NinepointError
-from core.profiles import Profile
 from core.limit import MAX_LEVEL, LimitCurve
+from core.profiles import Profile
 from core.shape import curvatures, tangents
 
 CONTROL_COLUMNS: Final[tuple[str, ...]] = ("x", "y")
