@@ -54,7 +54,7 @@ def test_the_caller_may_close_or_open_all_curves(tmp_path, drawing):
     assert [curve.closed for curve in open_document(drawing).curves] == [True, False]
 
 
-@pytest.mark.parametrize("name", ["a.pdf", "a.json", "a", "a.csv.gz", "a."])
+@pytest.mark.parametrize("name", ["a.pdf", "a.xml", "a", "a.csv.gz", "a."])
 def test_other_endings_are_refused_with_those_that_can_be_opened(tmp_path, name):
     path = tmp_path / name
     path.write_text("1 2\n3 4\n")

@@ -13,8 +13,10 @@ import msgspec
 from core import atomic, store
 from core.document import Document
 from core.errors import FileError
-from core.formats import dxf, points, svg, tables
+from core.formats import dxf, points, read_json, svg, tables
 from core.formats.contours import Contours
+from core.formats.tables import Tables
+from core.formats.verify import verify
 from core.profiles import (
     DEFAULT_TOLERANCE_MM,
     ENTITIES,
@@ -25,8 +27,6 @@ from core.profiles import (
     check_tolerance,
     named,
 )
-from core.formats.tables import Tables
-from core.formats.verify import verify
 
 __all__ = [
     "DEFAULT_TOLERANCE_MM",
@@ -50,7 +50,7 @@ __all__ = [
     "survey",
 ]
 
-OPENED: Final = (store.SUFFIX, *points.SUFFIXES)
+OPENED: Final = (store.SUFFIX, *points.SUFFIXES, read_json.SUFFIX)
 """Suffixes of the files that `open_document` reads."""
 
 Encoder = Callable[[Contours, str], bytes]
@@ -160,9 +160,9 @@ def open_document(path: str | Path, closed: bool | None = None) -> Document:
     suffix = path.suffix.lower()
     if suffix in points.SUFFIXES:
         return points.read(path, closed)
-    if suffix != store.SUFFIX:
+    if suffix not in OPENED:
         raise _unknown(path, "opened", OPENED)
-    document = store.load(path)
+    document = read_json.read(path) if suffix == read_json.SUFFIX else store.load(path)
     if closed is None:
         return document
     curves = tuple(replace(curve, closed=closed) for curve in document.curves)

@@ -88,8 +88,27 @@ def read(path: str | Path, closed: bool | None = None) -> Document:
     FileError
         If the file cannot be read or is not two columns of admitted numbers; with the line.
     """
+    return decode(atomic.read(path), path, closed)
+
+
+def decode(data: bytes, path: str | Path, closed: bool | None = None) -> Document:
+    """Drawing that the text of a point file describes; see `read`.
+
+    Parameters
+    ----------
+    data
+        Contents of the file, or of a clipboard.
+    path
+        Its name, for the curve and the messages.
+    closed
+        As in `read`.
+
+    Raises
+    ------
+    FileError
+        If it is not two columns of admitted numbers; with the line.
+    """
     path = Path(path)
-    data = atomic.read(path)
     if not data.strip():
         raise FileError(path, "the file is empty.")
     # A carriage return alone ends a line too (old Macintosh files).
@@ -98,9 +117,9 @@ def read(path: str | Path, closed: bool | None = None) -> Document:
     rows = _Rows.parsed(_lines(data, path), path)
     points = _in_selig_order(rows, path)
     if closed is None:
-        closed, repeated = _closure(points)
+        closed, repeated = closure(points)
     else:
-        repeated = closed and _closure(points)[1]
+        repeated = closed and closure(points)[1]
     if repeated:
         points = points[:-1]
     return Document((Curve(points, closed, _name(rows.titles, path)),))
@@ -317,8 +336,14 @@ def _in_selig_order(rows: _Rows, path: Path) -> NDArray[np.float64]:
     return np.concatenate([sides[:split][::-1], sides[split + nose_repeated :]])
 
 
-def _closure(points: NDArray[np.float64]) -> tuple[bool, bool]:
-    """Whether a polygon closes, and whether its last point repeats the first (see the module)."""
+def closure(points: NDArray[np.float64]) -> tuple[bool, bool]:
+    """Whether a polygon is closed, and whether its last point repeats the first (see the module).
+
+    Parameters
+    ----------
+    points
+        Shape (n, 2), n >= 1.
+    """
     if len(points) <= _MIN_SIDE:
         return False, False
     edges = np.hypot(*np.diff(points, axis=0).T)
