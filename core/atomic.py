@@ -177,7 +177,7 @@ def _new_temporary(folder: Path) -> tuple[Path, int]:
 def _locked(file: int) -> bool:
     """Try to lock a file; False if another process holds the lock.
 
-    True also where the disk knows no locks: then nobody removes strays there (`_is_stray`).
+    True also where the disk knows no locks: then nobody removes strays there (`_remove_stray`).
     """
     if fcntl is None:
         return True
@@ -190,16 +190,26 @@ def _locked(file: int) -> bool:
     return True
 
 
-def _is_stray(path: Path) -> bool:
-    """Whether the process that wrote a temporary file is gone: its lock is gone then."""
+def _remove_stray(path: Path) -> None:
+    """Remove a temporary file if the process that wrote it is gone: its lock is gone then.
+
+    The lock is held until the file is removed. Else a process that has just made it could lock it
+    in between, and lose it.
+
+    Raises
+    ------
+    OSError
+        If the file is locked, or cannot be removed.
+    """
     if fcntl is None:
-        return True
+        path.unlink()
+        return
     file = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        path.unlink()
     finally:
         os.close(file)
-    return True
 
 
 def _remove_strays(folder: Path) -> None:
@@ -207,8 +217,7 @@ def _remove_strays(folder: Path) -> None:
     with contextlib.suppress(OSError):
         for path in folder.glob(f"{_PREFIX}*{_SUFFIX}"):
             with contextlib.suppress(OSError):
-                if _is_stray(path):
-                    path.unlink()
+                _remove_stray(path)
 
 
 def _write_all(file: int, data: bytes) -> None:

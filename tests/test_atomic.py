@@ -259,3 +259,26 @@ def test_a_file_that_grows_while_it_is_read_is_refused(old_file, monkeypatch):
     old_file.write_bytes(OLD + b"more")
     with pytest.raises(FileError, match="more than"):
         atomic.read(old_file, limit)
+
+
+def test_a_stray_is_locked_until_it_is_gone(tmp_path, monkeypatch):
+    """Else the process that has just made it locks it in between, and loses it."""
+    stray = tmp_path / ".ninepoint-0123456789abcdef.tmp"
+    stray.write_bytes(OLD)
+    locked = []
+    real = Path.unlink
+
+    def watched(path, *args, **kwargs):
+        if path == stray:
+            with stray.open("rb") as file:
+                try:
+                    fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    locked.append(False)
+                except BlockingIOError:
+                    locked.append(True)
+        return real(path, *args, **kwargs)
+
+    monkeypatch.setattr(Path, "unlink", watched)
+    atomic.write(tmp_path / "new.svg", NEW)
+    assert locked == [True]
+    assert names(tmp_path) == ["new.svg"]
