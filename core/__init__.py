@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from core.reproduction import generation_degree, reproduction_degree
     from core.runs import Runs
     from core.shape import curvatures, second_derivatives, tangents
+    from core.splines import Spline, spline
     from core.view import view
 
 __all__ = [
@@ -78,6 +79,7 @@ __all__ = [
     "Runs",
     "Smoothness",
     "SmoothnessError",
+    "Spline",
     "Stencil",
     "StepResponse",
     "Violation",
@@ -112,6 +114,7 @@ __all__ = [
     "second_derivatives",
     "smoothest_beta",
     "smoothness",
+    "spline",
     "step_gibbs",
     "subdivide",
     "tangents",
@@ -149,6 +152,7 @@ _NAMES = {
     "reproduction": "generation_degree reproduction_degree",
     "runs": "Runs",
     "shape": "curvatures second_derivatives tangents",
+    "splines": "Spline spline",
     "view": "view",
 }
 """What is public, by the module that defines it."""
