@@ -47,6 +47,7 @@ __all__ = [
     "prepare",
     "profile_for",
     "register",
+    "report_on",
     "survey",
 ]
 
@@ -221,7 +222,7 @@ def survey(document: Document, profile: Profile, path: str | Path = "") -> Expor
     NinepointError
         If the drawing cannot be written so.
     """
-    return _report(Path(path), prepare(document, profile))
+    return report_on(prepare(document, profile), path)
 
 
 def export(document: Document, path: str | Path, profile: Profile) -> ExportReport:
@@ -254,7 +255,7 @@ def export(document: Document, path: str | Path, profile: Profile) -> ExportRepo
             raise _unknown(path, "exported", _written())
         raise FileError(path, f"files of the profile {profile.title} end in {profile.suffix}.")
     content = prepare(document, profile)
-    report = _report(path, content)
+    report = report_on(content, path)
     if isinstance(content, Tables) and profile.format in _TABLES:
         data = tables.encode(content, path.stem)
     elif isinstance(content, Tables):
@@ -269,7 +270,8 @@ def export(document: Document, path: str | Path, profile: Profile) -> ExportRepo
     return report
 
 
-def _report(path: Path, content: Contours | Tables) -> ExportReport:
+def report_on(content: Contours | Tables, path: str | Path = "") -> ExportReport:
+    """Tell what a file of what `prepare` gave holds."""
     width, height = content.size_mm
     notes = list(content.notes)
     if content.profile.version == "R12":
@@ -283,7 +285,7 @@ def _report(path: Path, content: Contours | Tables) -> ExportReport:
                 )
     contours = content.contours if isinstance(content, Contours) else content.tables
     return ExportReport(
-        path,
+        Path(path),
         content.profile,
         width,
         height,
