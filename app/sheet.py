@@ -138,12 +138,7 @@ class Sheet(QWidget):
     def fit_all(self) -> None:
         """Show the whole drawing as large as it fits."""
         curves = self.session.document.curves
-        corners = [
-            extreme(curve.points, axis=0)
-            for curve in curves
-            if curve.count
-            for extreme in (np.min, np.max)
-        ]
+        corners = [corner for curve in curves if curve.count for corner in curve.box]
         self._fit(np.array(corners).reshape(-1, 2))
         self._is_fitted = True
 
