@@ -216,9 +216,14 @@ def test_layers_are_one_or_one_for_each_curve():
     assert many.layers == ("LETTER_F", "STROKE")
 
 
-def test_a_kerf_is_refused_as_long_as_nothing_makes_it():
-    with pytest.raises(NinepointError, match="offset"):
-        Contours.of(letter_f(), with_(named("laser"), kerf_mm=0.1))
+def test_a_kerf_gives_polylines_and_says_so():
+    letter = Document(letter_f().curves[:1])
+    plain = Contours.of(letter, named("laser"))
+    grown = Contours.of(letter, with_(named("laser"), kerf_mm=0.5))
+    assert np.abs(grown.box - plain.box - [[-0.5], [0.5]]).max() < 0.02
+    assert grown.profile.entity == "polyline"
+    assert isinstance(grown.contours[0].shape, Polyline)
+    assert "With a kerf the contours are polylines." in grown.notes
 
 
 def test_every_built_in_profile_of_contours_can_be_prepared():

@@ -19,9 +19,11 @@ this sum is largest at the arc's middle. Bulges get so many decimals that ``e/2 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,6 +35,7 @@ from core.flatten import Polyline, polyline
 from core.formats import decimals
 from core.formats.boxes import Shape, box_of
 from core.formats.layers import layer_names
+from core.formats.toolpath import toolpaths
 from core.limit import LimitCurve
 from core.profiles import Profile
 from core.profiles import decimals as decimals_of
@@ -126,10 +129,11 @@ class Contours:
     Attributes
     ----------
     document, profile
-        What they are made of.
+        What they are made of; with a kerf, a profile of polylines.
     contours
         One for each curve, in the order of the document; curves of no extent (no point, a dot)
-        are left out.
+        are left out. With a kerf, the ways of the tool, each with the curve that it follows
+        (`core.formats.toolpath`).
     shift
         What was added to the coordinates of the document, in the unit of the file.
     places
@@ -155,8 +159,6 @@ class Contours:
             If nothing is left to draw, the tolerance is finer than the digits of the coordinates,
             or the routines that make the shapes refuse.
         """
-        if profile.kerf_mm:
-            raise NinepointError("Contours cannot be offset by a kerf yet; set it to 0.")
         drawn = [c for c in document.curves if not (c.points == c.points[:1]).all()]
         if not drawn:
             raise NinepointError(
@@ -164,7 +166,8 @@ class Contours:
             )
         unit = profile.unit_mm
         limits = [curve.limit(document.parameters) for curve in drawn]
-        largest = max(float(np.abs(limit.endless_points).max()) for limit in limits) / unit
+        largest = max(float(np.abs(limit.endless_points).max()) for limit in limits)
+        largest = (largest + abs(profile.kerf_mm)) / unit
         wanted = decimals_of(profile.tolerance_mm / unit, _guard(profile))
         # A corner as the origin makes coordinates up to twice as large.
         places = min(wanted, decimals.most_places(4 * largest))
@@ -175,13 +178,15 @@ class Contours:
                 f"Coordinates of {largest * unit:g} mm cannot be written within"
                 f" {profile.tolerance_mm:g} mm; choose a larger tolerance."
             )
-        notes: list[str] = []
-        found = []
-        for curve, limit in zip(drawn, limits, strict=True):
-            shape = _shape(limit, profile.entity, profile.tolerance_mm - rounding)
-            if isinstance(shape, Polyline) and profile.entity == "spline":
-                notes.append(f"{curve.name!r} is too rough for a spline, so it is a polyline.")
-            found.append((curve, _scaled(shape, 1 / unit, rounding)))
+        tolerance = profile.tolerance_mm - rounding
+        if profile.kerf_mm:
+            made, notes = toolpaths(drawn, limits, profile.kerf_mm, tolerance)
+            if profile.entity != "polyline":
+                notes.append("With a kerf the contours are polylines.")
+                profile = msgspec.structs.replace(profile, entity="polyline")
+        else:
+            made, notes = _shapes(drawn, limits, profile.entity, tolerance)
+        found = [(curve, _scaled(shape, 1 / unit, rounding)) for curve, shape in made]
         shift = np.zeros(2)
         if profile.origin == "corner":
             shift = -np.min([box_of(shape)[0] for _, shape in found], axis=0)
@@ -201,7 +206,10 @@ class Contours:
 
     @property
     def deviation_mm(self) -> float:
-        """Proven bound of the distance between the curves and what the file holds."""
+        """Proven bound of the distance between the curves and what the file holds.
+
+        With a kerf, the distance from the offset, in the sense of `core.formats.kerf`.
+        """
         return max(contour.shape.deviation for contour in self.contours)
 
     @property
@@ -246,6 +254,20 @@ def bulge_places(arcs: Arcs, places: int) -> int:
 
 def _guard(profile: Profile) -> int:
     return GUARD_DIGITS.get(profile.format, PICTURE_GUARD)
+
+
+def _shapes(
+    curves: Sequence[Curve], limits: Sequence[LimitCurve], entity: str, tolerance: float
+) -> tuple[list[tuple[Curve, Shape]], list[str]]:
+    """Shapes of curves, and sentences on those that are of another kind."""
+    notes = []
+    found = []
+    for curve, limit in zip(curves, limits, strict=True):
+        shape = _shape(limit, entity, tolerance)
+        if isinstance(shape, Polyline) and entity == "spline":
+            notes.append(f"{curve.name!r} is too rough for a spline, so it is a polyline.")
+        found.append((curve, shape))
+    return found, notes
 
 
 def _shape(limit: LimitCurve, entity: str, tolerance: float) -> Shape:

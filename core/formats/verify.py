@@ -6,7 +6,8 @@ The unit; the number of contours, of their pieces, which of them are closed, and
 box of all of them; and the distance from the exact curves, both ways: exact points of each curve,
 evaluated densely, must lie within the deviation that the report states of what the file shows, and
 what the file shows within the same of the curve. Nothing is taken from the way from the curve to
-the file but its promise.
+the file but its promise. Contours that are offset by a kerf are compared with all curves together
+(`core.formats.verify_kerf`).
 
 The cost is bounded: points and parts of outlines are at most `MOST_POINTS` each and contour beyond
 those that the file has, contours that are looked at for their distance at most `MOST_CONTOURS`,
@@ -25,13 +26,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.chords import chord_constant, second_difference_norm
 from core.errors import FileError, NinepointError
 from core.formats import svg, verify_dxf, verify_svg
 from core.formats.contours import Contour, Contours
 from core.formats.dxf import layers_of
 from core.formats.readback import MOST_POINTS, Readback, keep_near
 from core.formats.tables import CONTROL_COLUMNS, Tables
+from core.formats.verify_kerf import dense, keeps_distance
 from core.limit import LimitCurve
 
 MOST_CONTOURS: Final = 500
@@ -39,9 +40,6 @@ MOST_CONTOURS: Final = 500
 
 _FINE_SHARE: Final = 1 / 16
 """Share of the deviation by which polygons may leave what they stand for."""
-
-_FINEST_LEVEL: Final = 10
-"""Level at which curves are evaluated at most."""
 
 _ROUNDING: Final = 64 * float(np.finfo(float).eps)
 """Rounding of what is compared, as a share of the largest coordinate."""
@@ -107,14 +105,33 @@ def _verify_contours(data: bytes, content: Contours) -> None:
     slack = max(outline.slack for outline in whole) + rounding
     if np.abs(np.stack([low, high]) - content.box).max() > slack:
         raise NinepointError("its contours have another size")
+    def placed(outline: Readback) -> NDArray[np.float64]:
+        """Its line in the coordinates of the document."""
+        line: NDArray[np.float64] = (outline.line + moved - content.shift) * unit
+        return line
+
+    if profile.kerf_mm:
+        _verify_toolpaths(content, [placed(outline) for outline in whole], rounding * unit)
+        return
     chosen = np.unique(np.linspace(0, len(whole) - 1, MOST_CONTOURS).astype(np.intp))
     for k in chosen.tolist():
         contour, outline = content.contours[k], whole[k]
         limit = contour.curve.limit(content.document.parameters)
-        line = (outline.line + moved - content.shift) * unit
         slack = (outline.slack + rounding) * unit
-        if not _is_near(limit, line, contour.shape.deviation + slack):
+        if not _is_near(limit, placed(outline), contour.shape.deviation + slack):
             raise NinepointError(f"{contour.name!r} is further from the exact curve than stated")
+
+
+def _verify_toolpaths(
+    content: Contours, lines: list[NDArray[np.float64]], rounding: float
+) -> None:
+    """Refuse polygons, in mm, that are not the offset of the curves."""
+    curves = [curve for curve in content.document.curves if curve.is_loop]
+    limits = [curve.limit(content.document.parameters) for curve in curves]
+    limits = [limit for limit in limits if np.ptp(limit.control_points, axis=0).any()]
+    kerf = content.profile.kerf_mm
+    if not keeps_distance(limits, lines, kerf, content.deviation_mm + rounding):
+        raise NinepointError(f"a contour is not {abs(kerf):g} mm off the exact curves")
 
 
 def _joined(found: list[Readback], counts: list[int]) -> list[Readback]:
@@ -151,14 +168,8 @@ def _compare(contour: Contour, outline: Readback) -> None:
 
 def _is_near(limit: LimitCurve, line: NDArray[np.float64], reach: float) -> bool:
     """Whether curve and polygon are within ``reach`` of each other."""
-    level = 0
-    while level < _FINEST_LEVEL and limit.spans << level + 1 <= MOST_POINTS:
-        level += 1
-    points = limit.points(level)
-    around = np.concatenate([points, points[:1]]) if limit.closed else points
-    bends = np.hypot(*np.diff(limit.endless_points, n=2, axis=0).T).max(initial=0.0)
-    mask = limit.mask
-    slack = chord_constant(mask) * second_difference_norm(mask, level) * float(bends)
+    around, slack = dense(limit)
+    points = around[:-1] if limit.closed else around
     few = points[:: -(-len(points) // MOST_POINTS)]
     seen = line[:: -(-len(line) // MOST_POINTS)]
     return keep_near(few, line, reach) and keep_near(seen, around, reach + slack)
