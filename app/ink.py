@@ -103,12 +103,7 @@ class Stroke(Ink):
         chosen = line.heads[met | met[line.neighbours].any(axis=0)]
         if not len(chosen):
             return
-        painter.setPen(
-            QPen(
-                color(self.colour, self.opacity), self.width, Qt.PenStyle.SolidLine,
-                Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.MiterJoin,
-            )
-        )  # fmt: skip
+        painter.setPen(_pen(*self._pen))
         gaps = np.flatnonzero(np.diff(chosen) > 1) + 1
         firsts = chosen[np.concatenate([[0], gaps])]
         lasts = chosen[np.concatenate([gaps - 1, [len(chosen) - 1]])] + 1
@@ -185,15 +180,17 @@ class _Points(Ink):
     def unlike(self, other: Ink) -> list[Box]:
         if not isinstance(other, _Points) or self.look != other.look:
             return [self.box, other.box]
-        # Both name the points in rising order: those that are in both are painted in one order.
-        _, mine, others = np.intersect1d(
-            self.names, other.names, assume_unique=True, return_indices=True
-        )
-        common = (self.places[mine] == other.places[others]).all(axis=1)
-        boxes = [
-            np.delete(boxes, indices[common], axis=1)
-            for boxes, indices in ((self._boxes, mine), (other._boxes, others))
-        ]
+        if np.array_equal(self.names, other.names):
+            own = others = (self.places != other.places).any(axis=1)
+        else:
+            # Both name the points in rising order, in which those of both are painted.
+            own, others = np.ones(len(self.names), bool), np.ones(len(other.names), bool)
+            _, one, two = np.intersect1d(
+                self.names, other.names, assume_unique=True, return_indices=True
+            )
+            moved = (self.places[one] != other.places[two]).any(axis=1)
+            own[one] = others[two] = moved
+        boxes = [self._boxes[:, own], other._boxes[:, others]]
         return gathered(np.concatenate(boxes, axis=1), self.reach)
 
 
@@ -400,7 +397,8 @@ def gathered(boxes: NDArray[np.float64], reach: float) -> list[Box]:
     count = boxes.shape[1]
     if not count:
         return []
-    firsts = np.unique(np.arange(MOST_PARTS) * count // MOST_PARTS)
+    parts = min(count, MOST_PARTS)
+    firsts = np.arange(parts) * count // parts
     low = np.minimum.reduceat(boxes[:2], firsts, axis=1) - reach
     high = np.maximum.reduceat(boxes[2:], firsts, axis=1) + reach
     return [(a, b, c, d) for a, b, c, d in np.concatenate([low, high]).T.tolist()]
@@ -437,6 +435,14 @@ def _point(x: float, y: float) -> QPointF:
 def _square(x: float, y: float, reach: float) -> Box:
     reach += SMOOTHED_PX
     return x - reach, y - reach, x + reach, y + reach
+
+
+@lru_cache(maxsize=32)
+def _pen(colour: str, width: float, opacity: float) -> QPen:
+    return QPen(
+        color(colour, opacity), width, Qt.PenStyle.SolidLine,
+        Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.MiterJoin,
+    )  # fmt: skip
 
 
 @lru_cache(maxsize=32)

@@ -3,9 +3,9 @@
 Definitions
 -----------
 A *piece* is stroked at once, so it has no seam and covers no pixel twice; it is known by the t of
-its first vertex. A *segment* is known by its piece, by t and place of both its ends, and by which
-of them has a cap of the pen, where the piece ends. Two lines have a segment in common if both hold
-the same one.
+its first vertex. A *vertex* is known by its piece, its t, its place, and whether the pen has a cap
+there because the piece ends. Two lines have a *segment* in common if in both the same two vertices
+follow each other.
 
 Notes
 -----
@@ -92,27 +92,30 @@ class Line:
         """Segments before and after each in its piece, or itself where it ends: shape (2, s)."""
         count = len(self.heads)
         found = np.stack([np.arange(-1, count - 1), np.arange(1, count + 1)])
-        first, last = self._ends
-        loops = (self.vertices[self.starts[:-1]] == self.vertices[self.starts[1:] - 1]).all(axis=1)
-        found[0, first] = np.where(loops, last, first)
-        found[1, last] = np.where(loops, first, last)
+        ends = self.starts - np.arange(len(self.starts))
+        first, last = ends[:-1], ends[1:] - 1
+        found[0, first] = np.where(self._loops, last, first)
+        found[1, last] = np.where(self._loops, first, last)
         return found
 
-    @property
-    def _ends(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """First and last segment of each piece."""
-        ends = self.starts - np.arange(len(self.starts))
-        return ends[:-1], ends[1:] - 1
+    @cached_property
+    def _loops(self) -> NDArray[np.bool_]:
+        """Pieces that end where they start, shape (pieces,)."""
+        places = self._places
+        return places[self.starts[:-1]] == places[self.starts[1:] - 1]
 
     @cached_property
-    def _segments(self) -> NDArray[np.float64]:
-        """What a segment is known by: shape (8, s), t of its start first."""
-        heads, steps = self.heads, np.diff(self.starts) - 1
-        names = np.repeat(self.t[self.starts[:-1]], steps)
-        capped = (self.neighbours == np.arange(len(heads))).T @ (1.0, 2.0)
-        vertices, t = self.vertices.T, self.t
-        ends = *vertices[:, heads], *vertices[:, heads + 1]
-        return np.stack([t[heads], t[heads + 1], *ends, names, capped])
+    def _places(self) -> NDArray[np.complex128]:
+        """The vertices as numbers x + i y, shape (k,): equal ones are found at once."""
+        return np.ascontiguousarray(self.vertices).view(np.complex128)[:, 0]
+
+    @cached_property
+    def _names(self) -> NDArray[np.complex128]:
+        """Name of the piece of each vertex, and i where the pen has a cap, shape (k,)."""
+        starts = self.starts
+        names = np.repeat(self.t[starts[:-1]] + 0j, np.diff(starts))
+        names.imag[starts[:-1]] = names.imag[starts[1:] - 1] = ~self._loops
+        return names
 
     def own(self, other: Line) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Segments of this line that the other one has not, and those that only the other has.
@@ -122,24 +125,42 @@ class Line:
         mine, others
             Shapes (s,) of this line and of the other one.
         """
-        mine, others = self._segments, other._segments
-        count = min(mine.shape[1], others.shape[1])
-        before = _leading((mine[:, :count] == others[:, :count]).all(axis=0))
+        sizes = len(self.t), len(other.t)
+        count = min(sizes)
+        before = _leading(self._alike(slice(count), other, slice(count)))
         left = count - before
-        ends = mine[:, mine.shape[1] - left :], others[:, others.shape[1] - left :]
-        behind = _leading((ends[0] == ends[1]).all(axis=0)[::-1])
-        mine = mine[:, before : mine.shape[1] - behind]
-        others = others[:, before : others.shape[1] - behind]
-        differ = np.ones(mine.shape[1], dtype=bool), np.ones(others.shape[1], dtype=bool)
-        if mine.shape[1] and others.shape[1]:
-            # Several parts differ, such as those on both sides of a seam.
-            places = np.minimum(np.searchsorted(others[0], mine[0]), others.shape[1] - 1)
-            common = (mine == others[:, places]).all(axis=0)
-            differ[0][common] = False
-            differ[1][places[common]] = False
-        same = np.zeros(before, dtype=bool), np.zeros(behind, dtype=bool)
-        first, second = (np.concatenate([same[0], part, same[1]]) for part in differ)
-        return first, second
+        ends = slice(sizes[0] - left, None), slice(sizes[1] - left, None)
+        behind = _leading(self._alike(ends[0], other, ends[1])[::-1])
+        # Which vertex of the other line each one is, or -1.
+        partner = np.arange(sizes[0]), np.arange(sizes[1])
+        partner[0][sizes[0] - behind :] += sizes[1] - sizes[0]
+        partner[1][sizes[1] - behind :] += sizes[0] - sizes[1]
+        for partners, size in zip(partner, sizes, strict=True):
+            partners[before : size - behind] = -1
+        if before + behind < count:
+            # Several parts differ, such as those on both sides of a seam. A cut vertex is in both
+            # pieces; the later one of the two begins a piece.
+            inner = np.arange(before, sizes[0] - behind)
+            places = np.searchsorted(other.t, self.t[inner], "left")
+            begins = self.starts[np.searchsorted(self.starts, inner)] == inner
+            places[begins] = np.searchsorted(other.t, self.t[inner[begins]], "right") - 1
+            places = np.minimum(places, sizes[1] - 1)
+            alike = self._alike(inner, other, places)
+            partner[0][inner[alike]] = places[alike]
+            partner[1][places[alike]] = inner[alike]
+        mine, others = (
+            (partners[line.heads] < 0) | (partners[line.heads + 1] != partners[line.heads] + 1)
+            for partners, line in zip(partner, (self, other), strict=True)
+        )
+        return mine, others
+
+    def _alike(
+        self, mine: slice | NDArray[np.intp], other: Line, others: slice | NDArray[np.intp]
+    ) -> NDArray[np.bool_]:
+        """Whether vertices of two lines are the same, in pieces of one name."""
+        alike = self.t[mine] == other.t[others]
+        alike &= self._places[mine] == other._places[others]
+        return alike & (self._names[mine] == other._names[others])
 
 
 def stride_of(runs: Runs) -> float:

@@ -5,13 +5,17 @@ Run with ``python3 tests tests/benchmarks``. The figures are for Qt's raster eng
 
 from __future__ import annotations
 
+import shutil
+import subprocess
+import sys
 from itertools import cycle
+from pathlib import Path
 
 import numpy as np
 import pytest
 from comparison import Comparison
 from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QMouseEvent, QPaintEvent
 from PySide6.QtWidgets import QApplication
 from pytest_benchmark.fixture import BenchmarkFixture
 from pytestqt.qtbot import QtBot
@@ -32,11 +36,33 @@ def flower(count: int) -> Document:
     return Document((Curve(points),))
 
 
+class Watched(Canvas):
+    """A canvas that counts its paints."""
+
+    paints = 0
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802
+        super().paintEvent(event)
+        self.paints += 1
+
+
+def paint(canvas: Watched) -> None:
+    """Let the loop of events do all that leads to the next paint, and that paint."""
+    before = canvas.paints
+    while canvas.paints == before:
+        QApplication.processEvents()
+
+
 @pytest.fixture
-def canvas(qtbot: QtBot, count: int) -> Canvas:
-    shown = Canvas(Session(flower(count)))
+def size() -> tuple[int, int]:
+    return 900, 600
+
+
+@pytest.fixture
+def canvas(qtbot: QtBot, count: int, size: tuple[int, int]) -> Watched:
+    shown = Watched(Session(flower(count)))
     qtbot.addWidget(shown)
-    shown.resize(900, 600)
+    shown.resize(*size)
     with qtbot.waitExposed(shown):
         shown.show()
     QApplication.processEvents()
@@ -53,7 +79,7 @@ def send(canvas: Canvas, kind: QEvent.Type, place: QPointF, button: Qt.MouseButt
 
 @pytest.mark.parametrize("count", [20, 1000, 100_000, 1_000_000])
 def test_drag_one_point(
-    benchmark: BenchmarkFixture, comparison: Comparison, canvas: Canvas, count: int
+    benchmark: BenchmarkFixture, comparison: Comparison, canvas: Watched, count: int
 ) -> None:
     (drawn,) = canvas.scene.curves
     start = QPointF(*drawn.places_px(np.array([count // 8]))[0])
@@ -63,7 +89,7 @@ def test_drag_one_point(
 
     def move() -> None:
         send(canvas, QEvent.Type.MouseMove, next(places), NONE)
-        canvas.repaint()
+        paint(canvas)
 
     benchmark(move)
     times = np.sort(benchmark.stats.stats.data) * 1e3
@@ -75,7 +101,7 @@ def test_drag_one_point(
 
 
 @pytest.mark.parametrize("count", [1000])
-def test_pull_the_curve(benchmark: BenchmarkFixture, canvas: Canvas, count: int) -> None:
+def test_pull_the_curve(benchmark: BenchmarkFixture, canvas: Watched, count: int) -> None:
     canvas.show_polygon = False  # so that no control point is in the way
     x, y = canvas.scene.curves[0].vertices_px[count // 8]
     start = QPointF(x, y)
@@ -85,7 +111,7 @@ def test_pull_the_curve(benchmark: BenchmarkFixture, canvas: Canvas, count: int)
 
     def move() -> None:
         send(canvas, QEvent.Type.MouseMove, next(places), NONE)
-        canvas.repaint()
+        paint(canvas)
 
     benchmark(move)
     send(canvas, QEvent.Type.MouseButtonRelease, start + QPointF(40, 0), LEFT)
@@ -93,11 +119,50 @@ def test_pull_the_curve(benchmark: BenchmarkFixture, canvas: Canvas, count: int)
 
 
 @pytest.mark.parametrize("count", [20, 1000, 1_000_000])
-def test_zoom(benchmark: BenchmarkFixture, canvas: Canvas, count: int) -> None:
+def test_zoom(benchmark: BenchmarkFixture, canvas: Watched, count: int) -> None:
     factors = cycle([1.2, 1 / 1.2])
 
     def zoom() -> None:
         canvas.zoom_by(next(factors))
-        canvas.repaint()
+        paint(canvas)
 
     benchmark(zoom)
+
+
+@pytest.mark.parametrize("size", [(1920, 1080)])
+@pytest.mark.parametrize("count", [20, 450, 1_000_000])
+def test_full_frame(
+    benchmark: BenchmarkFixture, comparison: Comparison, canvas: Watched, count: int
+) -> None:
+    """All of a large window: grid, rulers, curve, polygon, and handles where they are shown."""
+    ways = cycle([3.0, -3.0])
+
+    def pan() -> None:
+        canvas.look(canvas.camera.moved(next(ways), 0.0))
+        paint(canvas)
+
+    benchmark(pan)
+    assert canvas.show_grid
+    median = 1e3 * float(np.median(benchmark.stats.stats.data))
+    comparison.row(f"full frame 1920 x 1080 while panned, {count:,} points", f"{median:.2f} ms",
+                   "8.3 ms")  # fmt: skip
+
+
+def test_drag_in_a_real_window(comparison: Comparison) -> None:
+    """One point of a million under the hand of xdotool, in the window itself."""
+    assert all(map(shutil.which, ("Xvfb", "xdotool"))), "apt-get install xvfb xdotool"
+    run = subprocess.run(
+        [sys.executable, Path(__file__).with_name("dragged.py"), "1000000"],
+        capture_output=True, text=True, check=True, timeout=120,
+    )  # fmt: skip
+    times = np.array(run.stdout.split(), dtype=float)
+    assert len(times) > 200
+    median, late = np.quantile(times, (0.5, 0.99))
+    what = "real window under Xvfb, mouse event to painted, one point of 1,000,000"
+    comparison.row(what, f"{median:.2f} ms, p99 {late:.2f} ms", "2.5 ms, 8 ms")
+    edges = np.array([0, 1, 2, 3, 4, 6, 8, 12, np.inf])
+    counts, _ = np.histogram(times, edges)
+    spread = ", ".join(
+        f"< {edge:g} ms: {count}" for edge, count in zip(edges[1:], counts, strict=True) if count
+    )
+    comparison.row("  of its events", spread)
