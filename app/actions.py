@@ -119,7 +119,7 @@ def _tool(key: str, letter: str, tip: str, section: bool = False) -> Command:
     return Command(
         key,
         "&Edit",
-        f"{key.capitalize()} &tool" if key == "select" else f"{key.capitalize()} tool",
+        "S&elect tool" if key == "select" else f"{key.capitalize()} tool",
         lambda window: window.canvas.set_tool(key),
         (letter,),
         tip,
@@ -139,7 +139,11 @@ COMMANDS: Final = (
     ),
     Command(
         "open", "&File", "&Open...", lambda w: w.files.open(), (StandardKey.Open,),
-        "Open a drawing, or points from a CSV, TSV or airfoil file", "open",
+        "Open a drawing, SVG, DXF, or points from a CSV, TSV, JSON or airfoil file", "open",
+    ),
+    Command(
+        "import", "&File", "&Import...", lambda w: w.importer.ask(), ("Ctrl+I",),
+        "Add the curves of a file to the drawing: SVG, DXF, points, or a drawing", "import",
     ),
     Command(
         "save", "&File", "&Save", lambda w: w.files.save(), (StandardKey.Save,),
@@ -168,6 +172,23 @@ COMMANDS: Final = (
     Command(
         "redo", "&Edit", "&Redo", lambda w: w.redo(),
         (StandardKey.Redo, "Ctrl+Shift+Z", "Ctrl+Y"), "Bring the last undone step back", "redo",
+    ),
+    Command(
+        "cut", "&Edit", "Cu&t", lambda w: w.clipboard.cut(), (StandardKey.Cut, "Ctrl+X"),
+        "Copy what is selected, and delete it", "cut", section=True,
+    ),
+    Command(
+        "copy", "&Edit", "&Copy", lambda w: w.clipboard.copy(), (StandardKey.Copy, "Ctrl+C"),
+        "Copy the curves that are selected; of one selected in part, its points as an open curve;"
+        " without a selection, all", "copy",
+    ),
+    Command(
+        "paste", "&Edit", "&Paste", lambda w: w.clipboard.paste(), (StandardKey.Paste, "Ctrl+V"),
+        "Add what was copied: curves, SVG, or two columns of numbers", "paste",
+    ),
+    Command(
+        "duplicate", "&Edit", "Dup&licate", lambda w: w.clipboard.duplicate(), ("Ctrl+D",),
+        "Add what is selected again, a step aside", "duplicate",
     ),
     Command(
         "select all", "&Edit", "Select &all", lambda w: w.canvas.select_all(),
@@ -256,7 +277,10 @@ COMMANDS: Final = (
 ZOOM_STEP: Final = 1.25
 """Factor of one zoom step: three of them double the picture, nearly."""
 
-CONTEXT_MENU: Final = ("closed", "reverse", "", "select all", "delete", "", "fit selection", "fit")
+CONTEXT_MENU: Final = (
+    "cut", "copy", "paste", "duplicate", "",
+    "closed", "reverse", "", "select all", "delete", "", "fit selection", "fit",
+)  # fmt: skip
 """Keys of the actions in the menu of the canvas."""
 
 MENUS: Final = ("&File", "&Edit", "&Curve", "&Scheme", "&View", "&Help")
@@ -331,7 +355,10 @@ class Actions:
         has_curve = window.current_curve is not None
         for key in ("closed", "reverse", "delete curve"):
             self._made[key].setEnabled(has_curve)
-        for key in ("delete", "fit selection"):
+        has_points = any(curve.count for curve in session.document.curves)
+        for key in ("copy", "duplicate"):
+            self._made[key].setEnabled(has_points)
+        for key in ("cut", "delete", "fit selection"):
             self._made[key].setEnabled(bool(session.selection.points))
 
     def tint(self, keys: Collection[str] | None = None) -> None:

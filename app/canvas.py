@@ -118,6 +118,16 @@ class Canvas(Sheet):
         points = PointSet({index: np.arange(curve.count) for index, curve in enumerate(curves)})
         self.session.select(Selection(points, self.session.selection.curve))
 
+    def reveal_selection(self) -> None:
+        """Show the whole drawing, if some of the selected points are out of view."""
+        low, high = self.camera.rectangle_mm()
+        curves = self.session.document.curves
+        for index, points in self.session.selection.points.by_curve.items():
+            places = curves[index].places(points)
+            if not ((places >= low) & (places <= high)).all():
+                self.fit_all()
+                return
+
     def delete_selection(self) -> None:
         """Delete the selected points; a curve that has none left goes with them."""
         selection = self.session.selection

@@ -18,9 +18,14 @@ if TYPE_CHECKING:
 DOCUMENT_SUFFIX = ".ninepoint"
 """Suffix of Ninepoint's own files."""
 
+_OWN = "*.ninepoint"
+_DRAWINGS = "*.svg *.svgz *.dxf"
+_POINTS = "*.csv *.tsv *.txt *.dat *.json"
+
 OPEN_FILTERS = (
-    "Drawings and points (*.ninepoint *.csv *.tsv *.txt *.dat)"
-    ";;Ninepoint drawings (*.ninepoint);;Points (*.csv *.tsv *.txt *.dat);;All files (*)"
+    f"All that can be opened ({_OWN} {_DRAWINGS} {_POINTS})"
+    f";;Ninepoint drawings ({_OWN});;SVG and DXF ({_DRAWINGS});;Points ({_POINTS})"
+    ";;All files (*)"
 )
 ABOUT_ICON_PX = 64
 SAVE_FILTERS = "Ninepoint drawings (*.ninepoint)"
@@ -52,6 +57,13 @@ class Dialogs:
 
         chosen, _ = QFileDialog.getOpenFileName(self._parent, "Open", str(folder), OPEN_FILTERS)
         return Path(chosen) if chosen else None
+
+    def paths_to_import(self, folder: Path) -> list[Path]:
+        """Let the user choose files whose curves are added to the drawing; none if cancelled."""
+        from PySide6.QtWidgets import QFileDialog
+
+        chosen, _ = QFileDialog.getOpenFileNames(self._parent, "Import", str(folder), OPEN_FILTERS)
+        return [Path(name) for name in chosen]
 
     def path_to_save(self, suggestion: Path) -> Path | None:
         """Let the user choose the name of a drawing, or None; it ends in the right suffix."""

@@ -38,12 +38,15 @@ class Files(QObject):
         `title` changed.
     recent_changed()
         The list of recent files changed.
+    foreign(path)
+        A file of another program is to be opened: the user has to be asked how.
     """
 
     told = Signal(str)
     opened = Signal()
     title_changed = Signal()
     recent_changed = Signal()
+    foreign = Signal(Path)
 
     def __init__(
         self,
@@ -57,6 +60,12 @@ class Files(QObject):
         self._settings = settings
         self._dialogs = dialogs
         self._stem = UNTITLED
+        self._source: Path | None = None
+
+    @property
+    def source(self) -> Path | None:
+        """The file that the drawing was read from, of whatever format; None for a new one."""
+        return self._source
 
     @property
     def title(self) -> str:
@@ -92,13 +101,14 @@ class Files(QObject):
     def open_path(self, path: Path) -> bool:
         """Open a file that was named: a recent one, a dropped one.
 
-        A drawing becomes the session's file; points of another format become a drawing without a
+        A drawing becomes the session's file; files of other formats become a drawing without a
         file, so that saving never overwrites them.
 
         Returns
         -------
         bool
-            Whether it is open now. If not, the user was told why, and nothing has changed.
+            Whether it is open now. If not, the user was told why, and nothing has changed; or it
+            is a drawing of another program, and the user is being asked about it (`foreign`).
         """
         return self.may_leave() and self._read(path)
 
@@ -135,24 +145,33 @@ class Files(QObject):
 
     def _read(self, path: Path, as_copy: bool = False) -> bool:
         from core.formats import open_document  # readers are not needed for the first paint
+        from core.formats.foreign import SUFFIXES
 
+        if path.suffix.lower() in SUFFIXES:
+            self.foreign.emit(path)
+            return False
         try:
             document = open_document(path)
         except NinepointError as error:
-            self._refuse("Cannot open", path, error)
+            self.refuse("Cannot open", path, error)
             return False
+        self.take(document, path, as_copy)
+        return True
+
+    def take(self, document: Document, path: Path, as_copy: bool = False) -> None:
+        """Go over to what was read from a file, and remember the file."""
         self.show_document(document, path, as_copy)
         if not as_copy:
             self._remember(path)
         self.told.emit(f"Opened {path.name}.")
-        return True
 
     def show_document(self, document: Document, path: Path, as_copy: bool = False) -> None:
         """Exchange the document for one that was read from ``path``, and remember nothing."""
         own = path.suffix.lower() == DOCUMENT_SUFFIX and not as_copy
         self._exchange(document, path.absolute() if own else None, path.stem)
+        self._source = path.absolute()
 
-    def _refuse(self, title: str, path: Path, error: NinepointError) -> None:
+    def refuse(self, title: str, path: Path, error: NinepointError) -> None:
         """Say why a file is not open; one that is gone leaves the list of recent files."""
         sentence = str(error)
         listed = path.absolute()
@@ -185,6 +204,7 @@ class Files(QObject):
 
     def _exchange(self, document: Document, path: Path | None, stem: str) -> None:
         self._stem = stem
+        self._source = None
         self._session.replace(document, path)
         self.title_changed.emit()
         self.opened.emit()

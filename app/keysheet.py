@@ -32,6 +32,9 @@ MOUSE: Final = (
     ("Tab, Shift + Tab", "next, previous point"),
     ("Arrows", "nudge; Shift ten times as far"),
     ("Double click on a slider", "back to its mark"),
+    ("Drop files, SVG, numbers", "open them, or add the curves"),
+    ("Drag from the list of curves", "copy to another program"),
+    ("Copy, paste in the table", "points as two columns of numbers"),
 )
 """What the mouse, and keys without an action, do."""
 

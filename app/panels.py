@@ -29,9 +29,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.curves_list import CurvesList
 from app.fields import typed_number
 from app.guard import guarded
 from app.point_set import PointSet
+from app.points_table import PointsTable
 from app.session import Selection, Session
 from app.theme import soften
 from core.document import Curve, Document
@@ -83,7 +85,7 @@ class CurvesPanel(QWidget):
         super().__init__(parent)
         self._session = session
         self._showing = False
-        self.list = QListWidget()
+        self.list = CurvesList(session)
         self.list.setAccessibleName("Curves")
         self.list.setFrameShape(QListWidget.Shape.NoFrame)
         soften(self.list)
@@ -272,16 +274,20 @@ class PointsPanel(QWidget):
     -------
     refused(sentence)
         A typed coordinate was refused.
+    told(sentence)
+        Rows were copied or pasted, or could not be.
     """
 
     refused = Signal(str)
+    told = Signal(str)
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
         self._showing = False
         self.model = PointsModel(session, self)
-        self.table = QTableView()
+        self.table = PointsTable(session)
+        self.table.told.connect(self.told)
         self.table.setAccessibleName("Points of the current curve")
         self.table.setModel(self.model)
         soften(self.table)

@@ -136,6 +136,15 @@ class Settings:
             return self._store.value(key)
         return self._memory.get(key)
 
+    @property
+    def import_way(self) -> str:
+        """How lines of another program became curves the last time, see `app.import_way`."""
+        return self._text("import/way")
+
+    @import_way.setter
+    def import_way(self, text: str) -> None:
+        self._write("import/way", text)
+
     def _write(self, key: str, value: object) -> None:
         if self._store is not None:
             self._store.setValue(key, value)

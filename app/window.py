@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QGuiApplication, QPaintEvent
+from PySide6.QtGui import QCloseEvent, QGuiApplication, QPaintEvent
 from PySide6.QtWidgets import QMainWindow, QToolBar, QWidget
 
 from app.actions import TOOL_BAR, Actions
 from app.canvas import Canvas
 from app.dialogs import Dialogs
 from app.docks import Docks
+from app.drops import Drops
 from app.files import Files
 from app.guard import guarded
 from app.menus import fill_menu_bar, open_context_menu
@@ -29,7 +29,9 @@ from core.document import Curve
 
 if TYPE_CHECKING:
     from app.analysis import Analysis, Finding
+    from app.clipboard import Clipboard
     from app.exporting import Exporter
+    from app.importing import Importer
     from app.map_panel import MapPanel
     from app.panels import CurvesPanel, PointsPanel
     from app.report_panel import ReportPanel
@@ -98,7 +100,7 @@ class MainWindow(QMainWindow):
         self.tool_bar = self._make_tool_bar()
         fill_menu_bar(self)
         self._connect()
-        self.setAcceptDrops(True)
+        self.drops = Drops(self)
         self.resize(*DEFAULT_SIZE)
         self.docks.size()
         self._first_arrangement = self.saveState(STATE_VERSION)
@@ -132,6 +134,7 @@ class MainWindow(QMainWindow):
         canvas.customContextMenuRequested.connect(lambda at: open_context_menu(self, at))
         status.proof.clicked.connect(self.commands["report"].trigger)
         self.files.told.connect(status.tell)
+        self.files.foreign.connect(lambda path: self.importer.open(path))
         self.scheme.refused.connect(status.tell)
 
     # What the first paint does not need is made when it is first asked for: 25 ms.
@@ -150,6 +153,7 @@ class MainWindow(QMainWindow):
 
         panel = PointsPanel(self.session)
         panel.refused.connect(self.status.tell)
+        panel.told.connect(self.status.tell)
         return panel
 
     @cached_property
@@ -172,6 +176,27 @@ class MainWindow(QMainWindow):
         return exporter
 
     @cached_property
+    @cached_property
+    def importer(self) -> Importer:
+        """What takes in files of other programs."""
+        from app.importing import Importer
+
+        importer = Importer(self.session, self.files, self.settings, self.dialogs, self)
+        importer.told.connect(self.status.tell)
+        importer.added.connect(self.canvas.reveal_selection)
+        self._stops.append(importer.stop)
+        return importer
+
+    @cached_property
+    def clipboard(self) -> Clipboard:
+        """What cuts, copies and pastes."""
+        from app.clipboard import Clipboard
+
+        clipboard = Clipboard(self.session, self.canvas, self.importer, self)
+        clipboard.told.connect(self.status.tell)
+        self._stops.append(clipboard.stop)
+        return clipboard
+
     def report(self) -> ReportPanel:
         """The report on the scheme."""
         from app.report_panel import ReportPanel
@@ -369,27 +394,3 @@ class MainWindow(QMainWindow):
             self._remember()
             self.stop()
             event.accept()
-
-    @guarded
-    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
-        """Take files."""
-        if _local_paths(event):
-            event.acceptProposedAction()
-
-    @guarded
-    def dropEvent(self, event: QDropEvent) -> None:
-        """Open the first of the files that are dropped."""
-        paths = _local_paths(event)
-        if paths:
-            event.acceptProposedAction()
-            # A question must not be asked while the other program waits for the drop to end.
-            QTimer.singleShot(0, self, lambda: self._open_dropped(paths))
-
-    def _open_dropped(self, paths: list[Path]) -> None:
-        if self.files.open_path(paths[0]) and len(paths) > 1:
-            self.status.tell(f"Opened {paths[0].name}, the first of {len(paths)} files.")
-
-
-def _local_paths(event: QDropEvent) -> list[Path]:
-    data = event.mimeData()
-    return [Path(url.toLocalFile()) for url in data.urls() if url.isLocalFile()]

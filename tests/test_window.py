@@ -172,10 +172,10 @@ def test_a_dropped_file_opens(qtbot, window, tmp_path):
     path = tmp_path / "points.csv"
     path.write_text("0,0\n10,0\n10,10\n")
     with qtbot.waitSignal(window.files.opened):
-        assert dropped(window, path, tmp_path / "other.csv")
+        assert dropped(window, path)
     assert len(window.session.document.curves[0].points) == 3
     assert window.windowTitle() == "points[*] - Ninepoint"
-    assert "the first of 2" in window.status.hint.text()
+    assert window.status.hint.text() == "Opened points.csv."
 
 
 def test_a_bad_dropped_file_leaves_the_drawing(qtbot, window, answers, tmp_path):
