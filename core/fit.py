@@ -52,10 +52,13 @@ _GROWTH: Final = 1.08
 _FAST_GROWTH: Final = 1.3
 """The same beyond `_FEW` spans."""
 
+_STEP: Final = 50
+"""The number changes by one, and one more in so many, at least, so that the search ends soon."""
+
 _FEW: Final = 300
 """Number of spans up to which there is time to search well."""
 
-_ORDERS: Final = ((40, 8.0), (1000, 4.0))
+_ORDERS: Final = ((40, 8.0), (150, 4.0))
 """Rounds, and the order q that is assumed in them. Corners have the order 1 and smooth parts 7: the
 larger number is more careful. Where it does not get to the tolerance, as with curves that are no
 smoother than those of the scheme, the smaller one does."""
@@ -93,6 +96,9 @@ _FAILURES: Final = 6
 
 _ROUNDING: Final = 64 * float(np.finfo(float).eps)
 """Rounding of distances between samples and places, in parts of coordinates and lengths."""
+
+_FINEST: Final = 1e-8
+"""Smallest tolerance in parts of the length: the steps of least squares end a little below."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,9 +162,9 @@ def fit(
     ValueError
         If the controls are not finite, or not of that shape.
     NinepointError
-        If the tolerance is not positive, or too small for the contour's own deviation, for the
-        rounding of its coordinates or for ``most`` points; if the contour is a dot, if the search
-        was cancelled.
+        If the tolerance is not positive, or too small for the contour's own deviation, the rounding
+        of its coordinates, its length (1e-8 of it) or ``most`` points; if the contour is a dot; if
+        the search was cancelled.
     NoLimitError
         If the scheme has no proven bound between samples (`core.chords`).
     """
@@ -180,6 +186,12 @@ def fit(
         raise NinepointError(
             f"This contour is known within {taken:.2g} mm only, so it cannot be fitted within"
             f" {tolerance:g} mm; choose a larger tolerance."
+        )
+    if tolerance < _FINEST * route.length:
+        raise NinepointError(
+            f"A contour {route.length:.3g} mm long can be fitted within"
+            f" {_FINEST * route.length:.2g} mm at best, not {tolerance:g} mm; choose a larger"
+            " tolerance."
         )
     found = _Search(route, mask, tolerance - taken, most, cancelled).found()
     if found.error > tolerance - taken:
@@ -248,7 +260,7 @@ class _Search:
                 wanted = np.clip(wanted, *_SPAN_FACTORS)
                 growth = _GROWTH if attempt.spans < _FEW else _FAST_GROWTH
                 spans = min(int(np.ceil(wanted.sum())), int(attempt.spans * growth))
-                spans = min(max(spans, attempt.spans + 1), self.most)
+                spans = min(max(spans, attempt.spans + _step(attempt.spans)), self.most)
                 attempt = self.tried(_shared(attempt.places, wanted, spans))
                 if attempt.error < best.error:
                     best = attempt
@@ -260,7 +272,8 @@ class _Search:
         while failures < _FAILURES and best.spans > self.fewest:
             needs = self.needs(attempt, 1.0) / _SHRINK_ORDER
             share = float(np.clip(np.exp(needs).mean(), *_SHRINK)) ** (1 / (1 + failures))
-            spans = max(min(int(best.spans * share), best.spans - 1), self.fewest)
+            spans = min(int(best.spans * share), best.spans - _step(best.spans))
+            spans = max(spans, self.fewest)
             attempt = self.tried(_shared(attempt.places, np.exp(needs - needs.mean()), spans))
             if attempt.error <= self.admitted:
                 best, failures = attempt, 0
@@ -311,6 +324,11 @@ class _Search:
         mode = "wrap" if self.route.closed else "edge"
         padded = np.pad(logarithms, margin, mode=mode)  # type: ignore[call-overload]
         return np.convolve(padded, _KERNEL, "valid")
+
+
+def _step(spans: int) -> int:
+    """By how much a number of spans changes at least."""
+    return 1 + spans // _STEP
 
 
 def _shared(

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from core.errors import NinepointError
 
-MAX_VERTICES: Final = 2**22
-"""Largest number of vertices: some hundred megabytes."""
+MAX_VERTICES: Final = 2**21
+"""Largest number of vertices: each is looked at in each of a hundred attempts to fit."""
 
 _CORNER: Final = 0.5
 """Angle in radians from which a vertex is a corner: the polygon of an arc whose sagittas are
@@ -59,8 +59,8 @@ class Route:
         counts = np.maximum(np.ceil(np.sqrt(bends / (8 * admitted))), 1.0)
         if counts.sum() > MAX_VERTICES:
             raise NinepointError(
-                f"A contour of {len(cubics):,} pieces is too long to be fitted within this"
-                " tolerance; choose a larger one, or cut the contour in parts."
+                f"This contour of {len(cubics):,} cubics is too long for so small a tolerance;"
+                " choose a larger one, or cut the contour in parts."
             )
         self.bound = float((bends / (8 * counts**2)).max())
         vertices = _points(cubics, counts.astype(np.intp))

@@ -5,13 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from chains import chain, dense, drawn, furthest, lines
 from core.beziers import beziers
 from core.errors import NinepointError, NoLimitError
 from core.family import PRESETS, Parameters
 from core.fit import fit
 from core.limit import LimitCurve
-from test_matching import dense, furthest
-from test_route import chain, drawn, lines
 
 CALM = PRESETS["Calm"].mask
 
@@ -162,6 +161,11 @@ def test_tolerances_must_be_positive(tolerance):
 def test_a_tolerance_below_rounding_is_refused():
     with pytest.raises(NinepointError, match="known within"):
         fit(circle(20) + 1e6, CALM, True, 1e-12)
+
+
+def test_a_tolerance_that_is_nothing_to_the_length_is_refused():
+    with pytest.raises(NinepointError, match=r"within 1\.3e-06 mm at best"):
+        fit(circle(20), CALM, True, 1e-7)
 
 
 def test_too_few_points_say_how_close_they_come():

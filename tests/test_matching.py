@@ -4,29 +4,12 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from chains import chain, dense, furthest, lines
 from core.family import PRESETS
 from core.limit import LimitCurve
 from core.matching import FREE, HELD, deviations, settled
 from core.route import Route
 from core.squares import SAMPLES, Squares
-from test_route import chain, lines
-
-
-def furthest(points, polygon):
-    """Largest distance of points from a polygon, all complex."""
-    start, way = polygon[:-1], np.diff(polygon)
-    square = np.where(way == 0, 1, np.abs(way) ** 2)
-    away = 0.0
-    for block in np.array_split(points, -(-len(points) // 200)):
-        off = block[:, None] - start
-        share = np.clip((off * way.conj()).real / square, 0, 1)
-        away = max(away, np.abs(off - share * way).min(axis=1).max())
-    return away
-
-
-def dense(curve, level):
-    points = curve.points(level) @ (1, 1j)
-    return np.append(points, points[:1]) if curve.closed else points
 
 
 @settings(max_examples=50)

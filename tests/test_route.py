@@ -5,36 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from chains import chain, drawn, lines
 from core.errors import NinepointError
 from core.route import Route
-
-
-def lines(points, closed):
-    """Straight cubics along a polygon."""
-    points = np.asarray(points, dtype=float)
-    ends = np.roll(points, -1, axis=0)
-    if not closed:
-        points, ends = points[:-1], ends[:-1]
-    way = ends - points
-    return np.stack([points, points + way / 3, ends - way / 3, ends], axis=1)
-
-
-def chain(seed, count, closed):
-    """Random cubics, joined."""
-    controls = np.random.default_rng(seed).uniform(0, 50, size=(count, 4, 2))
-    controls[1:, 0] = controls[:-1, 3]
-    if closed:
-        controls[-1, 3] = controls[0, 0]
-    return controls
-
-
-def drawn(controls, steps=500):
-    """Points of the cubics by de Casteljau's algorithm, shape (n, steps + 1)."""
-    level = (controls @ (1, 1j))[:, :, None]
-    u = np.linspace(0, 1, steps + 1)
-    while level.shape[1] > 1:
-        level = (1 - u) * level[:, :-1] + u * level[:, 1:]
-    return level[:, 0, :]
 
 
 @given(
