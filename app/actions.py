@@ -155,11 +155,11 @@ COMMANDS: Final = (
     ),
     Command(
         "export", "&File", "&Export...", lambda w: w.exporter.ask(), ("Ctrl+Shift+E",),
-        "Write the curves as SVG or DXF, in millimetres", "export", section=True,
+        "Write the curves for a machine or another program", "export", section=True,
     ),
     Command(
         "export again", "&File", "Export a&gain", lambda w: w.exporter.repeat(), ("Ctrl+E",),
-        "Repeat the last export: same file, format and tolerance",
+        "Repeat the last export: same file, same profile",
     ),
     Command(
         "quit", "&File", "&Quit", lambda w: w.close(), (StandardKey.Quit, "Ctrl+Q"),

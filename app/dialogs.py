@@ -82,11 +82,12 @@ class Dialogs:
         return self._new_path("Export", suggestion, f"{kind} (*{suggestion.suffix})")
 
     def _new_path(self, title: str, suggestion: Path, filters: str) -> Path | None:
-        from PySide6.QtWidgets import QFileDialog
+        from PySide6.QtWidgets import QApplication, QFileDialog
 
         # The dialog adds the suffix itself, so its question before overwriting names the very
         # file that will be written.
-        dialog = QFileDialog(self._parent, title, str(suggestion.parent), filters)
+        over = QApplication.activeModalWidget() or self._parent  # such as the export's own window
+        dialog = QFileDialog(over, title, str(suggestion.parent), filters)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix(suggestion.suffix.removeprefix("."))
         dialog.selectFile(suggestion.name)
@@ -94,6 +95,15 @@ class Dialogs:
         files = dialog.selectedFiles()
         dialog.deleteLater()
         return Path(files[0]) if accepted and files else None
+
+    def words(self, title: str, question: str, suggestion: str) -> str | None:
+        """Let the user type a line of words, or None."""
+        from PySide6.QtWidgets import QApplication, QInputDialog, QLineEdit
+
+        over = QApplication.activeModalWidget() or self._parent
+        normal = QLineEdit.EchoMode.Normal
+        typed, accepted = QInputDialog.getText(over, title, question, normal, suggestion)
+        return typed if accepted else None
 
     def unsaved(self, title: str) -> Answer:
         """Ask what shall happen to the changes of the drawing called ``title``."""

@@ -1,76 +1,53 @@
-"""Export: format and tolerance are asked once, the size is shown first, Ctrl+E repeats."""
+"""Export: who receives the file is asked once, what comes of it is shown, Ctrl+E repeats it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Any, Final
 
-from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QIcon
-from PySide6.QtWidgets import (
-    QComboBox,
-    QDialog,
-    QDialogButtonBox,
-    QFormLayout,
-    QHBoxLayout,
-    QLabel,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
 
 from app.dialogs import Dialogs
-from app.fields import NumberField, shown_number, typed_number
+from app.export_dialog import ExportDialog
+from app.export_shelf import Shelf
+from app.export_survey import NO_MEMORY, described
 from app.files import Files
-from app.guard import guarded
+from app.pages import register_encoders
 from app.session import Session
 from app.settings import Settings
+from app.worker import Task, Worker
 from core.document import Document
-from core.errors import NinepointError, ParameterError
+from core.errors import FileError, NinepointError
+from core.formats import ExportReport, export
+from core.polytope import Cancelled
+from core.profiles import Profile
 
-if TYPE_CHECKING:
-    from core.formats import ExportReport
-
-
-@dataclass(frozen=True)
-class Format:
-    """A file format, as the dialog presents it."""
-
-    suffix: str
-    name: str
-    use: str
-
-
-FORMATS: Final = (
-    Format("svg", "SVG", "drawing programs and lasers"),
-    Format("dxf", "DXF", "CAD and CNC, R2000"),
-)
-"""What curves can be exported to; a path's suffix decides."""
-
-DEFAULT_TOLERANCE_MM: Final = "0.01"
-"""Finer than laser cutters and printers place their tool."""
+TITLE: Final = "Cannot export"
+"""Of the message when there is no dialog to say it in."""
 
 
 @dataclass(frozen=True)
 class Target:
-    """Where the last export went, and how fine it was."""
+    """A file to write, and what it is to be."""
 
     path: Path
-    tolerance_mm: float
+    profile: Profile
 
 
 class Exporter(QObject):
-    """Asks what an export needs, writes it, and can do the same again.
+    """Asks what an export needs, writes it in the background, and can do the same again.
 
     Parameters
     ----------
     session
         The document.
     files
-        Knows what the drawing is called.
+        Knows what the drawing is called, and which file it came from.
     settings
-        Keeps format, tolerance and folder.
+        Keeps profiles and folder.
     dialogs
         Asks for the file's name and shows errors.
     window
@@ -93,21 +70,32 @@ class Exporter(QObject):
         window: QWidget,
     ) -> None:
         super().__init__(window)
+        register_encoders()
         self._session = session
         self._files = files
         self._settings = settings
         self._dialogs = dialogs
         self._window = window
+        self._shelf = Shelf(session, settings)
         self._last: Target | None = None
+        self._drawing = 0
+        self._worker = Worker(self)
+        self._worker.done.connect(self._take)
         self.dialog: ExportDialog | None = None
         files.opened.connect(self._forget)
 
     def ask(self) -> None:
         """Open the dialog; the export follows when it is accepted."""
         self._session.commit()
-        dialog = ExportDialog(self._session.document, self._settings, self._window)
-        dialog.accepted.connect(self._choose_path)
-        dialog.finished.connect(dialog.deleteLater)
+        dialog = ExportDialog(
+            lambda: self._session.document,
+            self._shelf,
+            self._settings,
+            self._dialogs,
+            self._window,
+        )
+        dialog.wanted.connect(self._choose_path)
+        dialog.finished.connect(self._close)
         self.dialog = dialog
         dialog.open()
 
@@ -117,169 +105,105 @@ class Exporter(QObject):
             self.ask()
         else:
             self._session.commit()
+            self.told.emit(f"Writing {self._last.path.name}\u2026")
             self._write(self._last)
+
+    def stop(self) -> None:
+        """Wait until a file that is being written is there; nothing is begun any more."""
+        if self.dialog is not None:
+            self.dialog.set_busy(False)
+            self.dialog.reject()
+        self._worker.stop()
 
     def _forget(self) -> None:
         # Another drawing must not overwrite what this one was exported to.
         self._last = None
+        self._drawing += 1
 
-    def _choose_path(self) -> None:
+    def _close(self) -> None:
+        if self.dialog is not None:
+            self.dialog.deleteLater()
+            self.dialog = None
+
+    def _choose_path(self, profile: Profile) -> None:
         if self.dialog is None:
             return
-        chosen, tolerance = self.dialog.format, self.dialog.tolerance
-        self._settings.export_format = chosen.suffix
-        self._settings.export_tolerance = shown_number(tolerance)
-        name = Path(self._files.title).stem + "." + chosen.suffix
-        path = self._dialogs.path_to_export(self._settings.export_folder / name, chosen.name)
+        name = Path(self._files.title).stem + profile.suffix
+        kind = f"{profile.format.upper()} files"
+        path = self._dialogs.path_to_export(self._settings.export_folder / name, kind)
         if path is None:
             return
-        if path.suffix.lower() != "." + chosen.suffix:
-            path = path.with_name(f"{path.name}.{chosen.suffix}")
+        if path.suffix.lower() != profile.suffix:
+            path = path.with_name(path.name + profile.suffix)
         self._settings.export_folder = path.parent
-        self._write(Target(path, float(tolerance)))
+        self.dialog.set_busy(True)
+        self._write(Target(path, profile))
 
     def _write(self, target: Target) -> None:
-        from core.formats import export, profile_for  # writers are not needed for the first paint
+        sources = [self._session.path, self._files.source]
+        self._worker.ask(_task(self._session.document, target, self._drawing, sources))
 
-        try:
-            profile = profile_for(target.path).within(target.tolerance_mm)
-            report = export(self._session.document, target.path, profile)
-        except NinepointError as error:
-            self._dialogs.error("Cannot export", str(error))
+    def _take(self, outcome: Outcome) -> None:
+        if outcome.report is None:
+            if self.dialog is not None:
+                self.dialog.tell_fault(outcome.fault)
+            else:
+                self._dialogs.error(TITLE, outcome.fault)
             return
-        self._last = target
-        self.told.emit(f"Exported {target.path.name}: {described(report)}.")
+        if outcome.drawing == self._drawing:
+            self._last = outcome.target
+        if self.dialog is not None:
+            self.dialog.set_busy(False)
+            self.dialog.remember()
+            self.dialog.accept()
+        self.told.emit(f"Exported {outcome.target.path.name}: {described(outcome.report)}.")
 
 
-class ExportDialog(QDialog):
-    """Format and tolerance, and what will come of them.
+@dataclass(frozen=True)
+class Outcome:
+    """What became of an export.
 
-    Parameters
+    Attributes
     ----------
-    document
-        What will be exported.
-    settings
-        Format and tolerance of the last time.
+    target
+        The file.
+    drawing
+        Which of the drawings that were open it shows.
+    report
+        What was written, or None.
+    fault
+        Why it was not.
     """
 
-    def __init__(
-        self, document: Document, settings: Settings, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
-        self.setWindowTitle("Export")
-        self._document = document
-        self.choice = QComboBox()
-        self.choice.setAccessibleName("Format")
-        for form in FORMATS:
-            self.choice.addItem(f"{form.name} \u2013 {form.use}", form)
-        suffixes = [form.suffix for form in FORMATS]
-        if settings.export_format in suffixes:
-            self.choice.setCurrentIndex(suffixes.index(settings.export_format))
-        self.field = NumberField("tolerance", check_tolerance)
-        self.field.set_explanation("Largest distance of the written curve from the exact one")
-        self.field.set_number(_remembered(settings))
-        self.field.setFixedWidth(self.field.fontMetrics().horizontalAdvance("0.000000") + 18)
-        self.preview = QLabel()
-        self.preview.setAccessibleName("What will be written")
-        self.preview.setWordWrap(True)
-        self.preview.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self.preview.setMinimumWidth(self.preview.fontMetrics().averageCharWidth() * 52)
-        self.preview.setMinimumHeight(self.preview.fontMetrics().lineSpacing() * 2)
-        self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        self.export = self.buttons.addButton("&Export...", QDialogButtonBox.ButtonRole.AcceptRole)
-        self.buttons.button(QDialogButtonBox.StandardButton.Cancel).setIcon(QIcon())
-        self._lay_out()
-        self.export.setDefault(True)  # after the layout, which makes a button of its own choice so
-        self.buttons.accepted.connect(self.accept)
-        self.buttons.rejected.connect(self.reject)
-        self.choice.currentIndexChanged.connect(self._show_preview)
-        self.field.entered.connect(self._show_preview)
-        self.field.refused.connect(self._refuse)
-        self.field.textEdited.connect(lambda: self.export.setEnabled(True))
-        self._show_preview()
+    target: Target
+    drawing: int
+    report: ExportReport | None
+    fault: str = ""
 
-    def _lay_out(self) -> None:
-        form = QFormLayout()
-        form.setHorizontalSpacing(12)
-        form.setVerticalSpacing(10)
-        tolerance = QHBoxLayout()
-        tolerance.setSpacing(8)
-        tolerance.addWidget(self.field)
-        tolerance.addWidget(QLabel("mm"))
-        tolerance.addStretch()
-        label = QLabel("&Tolerance")
-        label.setBuddy(self.field)
-        form.addRow("&Format", self.choice)
-        form.addRow(label, tolerance)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(18, 16, 18, 14)
-        layout.setSpacing(14)
-        layout.addLayout(form)
-        layout.addWidget(self.preview)
-        layout.addWidget(self.buttons)
 
-    @property
-    def format(self) -> Format:
-        """The format chosen."""
-        return FORMATS[self.choice.currentIndex()]
+def _task(
+    document: Document, target: Target, drawing: int, sources: list[Path | None]
+) -> Task:
+    """Task that writes a file; once begun it comes to its end."""
 
-    @property
-    def tolerance(self) -> Fraction:
-        """The tolerance in force, in mm."""
-        return self.field.number
-
-    @guarded
-    def accept(self) -> None:
-        """Close with yes, unless the tolerance typed is nonsense."""
-        if not self.field.fault:
-            super().accept()
-
-    def _show_preview(self) -> None:
+    def task(_cancelled: Cancelled, _send: Callable[[Any], None]) -> Outcome:
         try:
-            report = trial(self._document, self.format, float(self.tolerance))
+            _refuse_source(target.path, sources)
+            report = export(document, target.path, target.profile)
         except NinepointError as error:
-            self._refuse(str(error))
-            return
-        self.preview.setText(described(report))
-        self.export.setEnabled(True)
+            return Outcome(target, drawing, None, str(error))
+        except OSError as error:
+            fault = FileError(target.path, f"{error.strerror or type(error).__name__}.")
+            return Outcome(target, drawing, None, str(fault))
+        except MemoryError:
+            return Outcome(target, drawing, None, NO_MEMORY)
+        return Outcome(target, drawing, report)
 
-    def _refuse(self, sentence: str) -> None:
-        self.preview.setText(sentence)
-        self.export.setEnabled(False)
-
-
-def trial(document: Document, form: Format, tolerance_mm: float) -> ExportReport:
-    """Report of an export that is not written: the very numbers that writing will give.
-
-    Raises
-    ------
-    NinepointError
-        If the document cannot be exported so.
-    """
-    from core.formats import profile_for, survey
-
-    if not any(curve.count for curve in document.curves):
-        raise NinepointError("There is nothing to export yet: the drawing has no points.")
-    return survey(document, profile_for(f"drawing.{form.suffix}").within(tolerance_mm))
+    return task
 
 
-def described(report: ExportReport) -> str:
-    """Words of a report, in the window's letters: "105.60 × 62.00 mm, closed, ..."."""
-    # Unbreakable spaces keep the bound together in a narrow window.
-    bound = report.summary.replace("deviation <= ", "deviation\u00a0\u2264\u00a0")
-    return bound.replace(" x ", " \u00d7 ").removesuffix(" mm") + "\u00a0mm"
-
-
-def check_tolerance(number: Fraction) -> None:
-    """Refuse a tolerance that is not greater than 0; the writer knows the finer limits."""
-    if number <= 0:
-        raise ParameterError("tolerance must be greater than 0.")
-
-
-def _remembered(settings: Settings) -> Fraction:
-    try:
-        number = typed_number(settings.export_tolerance, "tolerance")
-        check_tolerance(number)
-    except ParameterError:
-        return Fraction(DEFAULT_TOLERANCE_MM)
-    return number
+def _refuse_source(path: Path, sources: list[Path | None]) -> None:
+    """Refuse to overwrite the file that the drawing came from."""
+    for source in sources:
+        if source is not None and path.exists() and source.exists() and path.samefile(source):
+            raise FileError(path, "this is the file that the drawing came from; choose another.")

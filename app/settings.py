@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import QByteArray, QPoint, QRect, QSettings, QSize, QStandardPaths
+
+from core.errors import NinepointError
+from core.profiles import Profile, decode, encode
 
 MAX_RECENT: Final = 10
 """Number of recent files that are kept: as many as fit a menu without searching."""
@@ -73,22 +76,36 @@ class Settings:
         self._write("export/folder", str(folder.absolute()))
 
     @property
-    def export_format(self) -> str:
-        """Suffix of the last export, "svg" at first."""
-        return self._text("export/format", "svg")
+    def export_choice(self) -> str:
+        """Key of the profile of the last export, as `app.export_shelf.Offer` has it."""
+        return self._text("export/profile")
 
-    @export_format.setter
-    def export_format(self, suffix: str) -> None:
-        self._write("export/format", suffix)
+    @export_choice.setter
+    def export_choice(self, key: str) -> None:
+        self._write("export/profile", key)
 
     @property
-    def export_tolerance(self) -> str:
-        """Tolerance of the last export in mm, as it was typed; "0.01" at first."""
-        return self._text("export/tolerance", "0.01")
+    def export_profiles(self) -> tuple[Profile, ...]:
+        """The user's own export profiles, with different names; damaged ones count as absent."""
+        found = [decoded(line) for line in self._text("export/own").split("\n")]
+        by_name = {profile.name: profile for profile in found if profile is not None}
+        return tuple(by_name.values())
 
-    @export_tolerance.setter
-    def export_tolerance(self, text: str) -> None:
-        self._write("export/tolerance", text)
+    @export_profiles.setter
+    def export_profiles(self, profiles: Sequence[Profile]) -> None:
+        self._write("export/own", "\n".join(encode(profile).decode() for profile in profiles))
+
+    @property
+    def export_changes(self) -> dict[str, Profile]:
+        """What profiles were changed to, without being saved, at their last export; by keys."""
+        lines = (line.partition(" ") for line in self._text("export/changes").split("\n"))
+        found = {key: decoded(text) for key, _, text in lines}
+        return {key: profile for key, profile in found.items() if profile is not None}
+
+    @export_changes.setter
+    def export_changes(self, changes: Mapping[str, Profile]) -> None:
+        lines = [f"{key} {encode(profile).decode()}" for key, profile in changes.items()]
+        self._write("export/changes", "\n".join(lines))
 
     @property
     def window_rect(self) -> QRect | None:
@@ -119,6 +136,15 @@ class Settings:
     def arrangement(self, state: QByteArray) -> None:
         self._write("window/arrangement", state)
 
+    @property
+    def import_way(self) -> str:
+        """How lines of another program became curves the last time, see `app.import_way`."""
+        return self._text("import/way")
+
+    @import_way.setter
+    def import_way(self, text: str) -> None:
+        self._write("import/way", text)
+
     def _folder(self, key: str) -> Path:
         kept = self._text(key)
         if kept and Path(kept).is_dir():
@@ -136,20 +162,19 @@ class Settings:
             return self._store.value(key)
         return self._memory.get(key)
 
-    @property
-    def import_way(self) -> str:
-        """How lines of another program became curves the last time, see `app.import_way`."""
-        return self._text("import/way")
-
-    @import_way.setter
-    def import_way(self, text: str) -> None:
-        self._write("import/way", text)
-
     def _write(self, key: str, value: object) -> None:
         if self._store is not None:
             self._store.setValue(key, value)
         else:
             self._memory[key] = value
+
+
+def decoded(text: str) -> Profile | None:
+    """Export profile of a text, or None if that is damaged or of a newer program."""
+    try:
+        return decode(text)
+    except NinepointError:
+        return None
 
 
 def on_screen(rect: QRect, screens: Sequence[QRect]) -> QRect:

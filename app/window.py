@@ -168,14 +168,14 @@ class MainWindow(QMainWindow):
 
     @cached_property
     def exporter(self) -> Exporter:
-        """What writes SVG and DXF."""
+        """What writes files for other programs."""
         from app.exporting import Exporter
 
         exporter = Exporter(self.session, self.files, self.settings, self.dialogs, self)
         exporter.told.connect(self.status.tell)
+        self._stops.append(exporter.stop)
         return exporter
 
-    @cached_property
     @cached_property
     def importer(self) -> Importer:
         """What takes in files of other programs."""
@@ -197,6 +197,7 @@ class MainWindow(QMainWindow):
         self._stops.append(clipboard.stop)
         return clipboard
 
+    @cached_property
     def report(self) -> ReportPanel:
         """The report on the scheme."""
         from app.report_panel import ReportPanel

@@ -44,15 +44,18 @@ def slide(track, value):
 
 
 def export(window, path, qtbot):
-    """Export through the dialog, as a user who chooses a format, a tolerance and a name."""
+    """Export through the dialog, as a user who chooses a profile, a tolerance and a name."""
     window.dialogs.path = path
     window.commands["export"].trigger()
     dialog = window.exporter.dialog
-    dialog.choice.setCurrentIndex(dialog.choice.findText(path.suffix[1:].upper(),
-                                                         Qt.MatchFlag.MatchStartsWith))  # fmt: skip
-    dialog.field.setText(str(TOLERANCE_MM))
-    QTest.keyClick(dialog.field, Qt.Key.Key_Tab)
-    dialog.accept()
+    qtbot.waitUntil(dialog.list.hasFocus)
+    QTest.keyClick(dialog.list, {".svg": Qt.Key.Key_I, ".dxf": Qt.Key.Key_Home}[path.suffix])
+    tolerance = dialog.fields.editors["tolerance_mm"]
+    tolerance.setText(str(TOLERANCE_MM))
+    QTest.keyClick(tolerance, Qt.Key.Key_Tab)
+    with qtbot.waitSignal(window.exporter.told):
+        dialog.export.click()
+    assert window.exporter.dialog is None
     assert window.dialogs.shown == []
     assert path.exists()
 
