@@ -86,5 +86,5 @@ def test_a_title_gives_a_name_for_the_command_line(title, name):
 
 @pytest.mark.parametrize("title", ["", "   ", "x" * (MAX_NAME + 1), "a\x07b"])
 def test_a_title_that_cannot_be_is_refused(title):
-    with pytest.raises(NinepointError, match="title|Title"):
+    with pytest.raises(NinepointError, match=r"title|Title"):
         titled(named("laser"), title)
