@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from core.ends import end_points, end_rules, extended
     from core.errors import FileError, NinepointError, NoLimitError, ParameterError, SmoothnessError
     from core.family import PRESETS, Parameters, displacement, exact, one_parameter, two_parameter
+    from core.fit import Fit, fit
     from core.flatten import Polyline, polyline
     from core.gibbs import Gibbs, StepResponse, Violation, ramp_gibbs, step_gibbs, zeta_violation
     from core.history import History
@@ -59,6 +60,7 @@ __all__ = [
     "CurvePyramid",
     "Document",
     "FileError",
+    "Fit",
     "Gibbs",
     "History",
     "HoelderInterval",
@@ -96,6 +98,7 @@ __all__ = [
     "exact",
     "exact_interval",
     "extended",
+    "fit",
     "generation_degree",
     "lagrange",
     "nearest_place",
@@ -136,6 +139,7 @@ _NAMES = {
     "ends": "end_points end_rules extended",
     "errors": "FileError NinepointError NoLimitError ParameterError SmoothnessError",
     "family": "PRESETS Parameters displacement exact one_parameter two_parameter",
+    "fit": "Fit fit",
     "flatten": "Polyline polyline",
     "gibbs": "Gibbs StepResponse Violation ramp_gibbs step_gibbs zeta_violation",
     "history": "History",
