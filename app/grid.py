@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPixmap
 
 from app.camera import Camera
@@ -26,6 +26,9 @@ LABEL_INDENT_PX: Final = 3.0
 SHORT_TICK_PX: Final = 5.0
 LONG_TICK_PX: Final = 12.0
 """Lengths of the ticks on the rulers, plain and labelled."""
+
+STRIP: Final = 32
+"""Rows of the background that are drawn; the others are copied from them."""
 
 AXIS_OPACITY: Final = 0.55
 """The lines through the origin are lines of the grid, only stronger."""
@@ -111,18 +114,19 @@ def view_step(camera: Camera, metrics: QFontMetricsF) -> Step:
     return step_for(camera.scale, spacing)
 
 
-def paint_grid(painter: QPainter, camera: Camera, palette: Palette, step: Step) -> None:
-    """Draw the lines of the grid; those through the origin are the axes."""
+def paint_grid(
+    painter: QPainter, camera: Camera, palette: Palette, step: Step, axis: int
+) -> None:
+    """Draw the lines of the grid across an axis; the one through the origin is the other axis."""
     low, high = camera.rectangle_mm()
-    for axis, length in ((0, camera.height), (1, camera.width)):
-        minor, major = ticks(float(low[axis]), float(high[axis]), step)
-        for places, ink in (
-            (minor, color(palette.grid)),
-            (np.array(major) * step.size_mm, color(palette.grid_major)),
-            (np.zeros(int(low[axis] <= 0 <= high[axis])), color(palette.axis, AXIS_OPACITY)),
-        ):
-            for place in _axis_pixels(camera, axis, places):
-                _rule(painter, axis, place, 0, length, ink)
+    length = (camera.height, camera.width)[axis]
+    minor, major = ticks(float(low[axis]), float(high[axis]), step)
+    for places, ink in (
+        (minor, color(palette.grid)),
+        (np.array(major) * step.size_mm, color(palette.grid_major)),
+        (np.zeros(int(low[axis] <= 0 <= high[axis])), color(palette.axis, AXIS_OPACITY)),
+    ):
+        _rule(painter, axis, _axis_pixels(camera, axis, places), 0, length, ink)
 
 
 def paint_rulers(painter: QPainter, camera: Camera, palette: Palette, step: Step) -> None:
@@ -135,15 +139,16 @@ def paint_rulers(painter: QPainter, camera: Camera, palette: Palette, step: Step
     for axis, length in ((0, camera.width), (1, camera.height)):
         painter.fillRect(_box(axis, 0, 0, length, breadth), ground)
         minor, major = ticks(float(low[axis]), float(high[axis]), step)
-        for place in _axis_pixels(camera, axis, minor):
-            _rule(painter, axis, place, breadth - SHORT_TICK_PX, breadth, line)
+        places = _axis_pixels(camera, axis, minor)
+        _rule(painter, axis, places, breadth - SHORT_TICK_PX, breadth, line)
         labelled = _axis_pixels(camera, axis, np.array(major) * step.size_mm)
-        for count, place in zip(major, labelled, strict=True):
-            _rule(painter, axis, place, breadth - LONG_TICK_PX, breadth, line)
+        _rule(painter, axis, labelled, breadth - LONG_TICK_PX, breadth, line)
+        for count, place in zip(major, labelled.tolist(), strict=True):
             _label(painter, axis, place, step.label(count))
     painter.fillRect(QRectF(0, 0, breadth, breadth), ground)
-    _rule(painter, 1, breadth - 1, breadth - 1, camera.width, line)
-    _rule(painter, 0, breadth - 1, breadth - 1, camera.height, line)
+    edge = np.array([breadth - 1.0])
+    _rule(painter, 1, edge, breadth - 1, camera.width, line)
+    _rule(painter, 0, edge, breadth - 1, camera.height, line)
     painter.drawText(QRectF(0, 0, breadth, breadth), Qt.AlignmentFlag.AlignCenter, "mm")
 
 
@@ -173,14 +178,24 @@ class Background:
         key = (camera, palette, ratio, font, with_grid)
         if key != self._key:
             self._key = key
-            self._pixmap = QPixmap(round(camera.width * ratio), round(camera.height * ratio))
+            wide, high = round(camera.width * ratio), round(camera.height * ratio)
+            if (self._pixmap.width(), self._pixmap.height()) != (wide, high):
+                self._pixmap = QPixmap(wide, high)
             self._pixmap.setDevicePixelRatio(ratio)
-            self._pixmap.fill(color(palette.background))
             step = view_step(camera, QFontMetricsF(ruler_font(font)))
+            # Upright lines are the same in all rows: rows are copied faster than columns drawn.
+            strip = QPixmap(wide, min(STRIP, high))
+            strip.setDevicePixelRatio(ratio)
+            strip.fill(color(palette.background))
+            if with_grid:
+                with QPainter(strip) as painter:
+                    paint_grid(painter, camera, palette, step, 0)
             with QPainter(self._pixmap) as painter:
+                for top in range(0, high, strip.height()):
+                    painter.drawPixmap(QPointF(0, top / ratio), strip)
                 painter.setFont(font)
                 if with_grid:
-                    paint_grid(painter, camera, palette, step)
+                    paint_grid(painter, camera, palette, step, 1)
                 paint_rulers(painter, camera, palette, step)
         return self._pixmap
 
@@ -207,12 +222,18 @@ def _box(axis: int, along: float, across: float, length: float, breadth: float) 
 
 
 def _rule(
-    painter: QPainter, axis: int, place: float, begin: float, end: float, ink: QColor
+    painter: QPainter,
+    axis: int,
+    places: NDArray[np.float64],
+    begin: float,
+    end: float,
+    ink: QColor,
 ) -> None:
-    """Draw a line across an axis that covers whole device pixels, so that it is crisp."""
+    """Draw lines across an axis that cover whole device pixels, so that they are crisp."""
     ratio = painter.device().devicePixelRatioF()
-    crisp = math.floor(place * ratio) / ratio
-    painter.fillRect(_box(axis, crisp, begin, round(ratio) / ratio, end - begin), ink)
+    breadth = round(ratio) / ratio
+    for crisp in (np.floor(places * ratio) / ratio).tolist():
+        painter.fillRect(_box(axis, crisp, begin, breadth, end - begin), ink)
 
 
 def _label(painter: QPainter, axis: int, place: float, text: str) -> None:

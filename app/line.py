@@ -101,8 +101,9 @@ class Line:
     @cached_property
     def _loops(self) -> NDArray[np.bool_]:
         """Pieces that end where they start, shape (pieces,)."""
-        places = self._places
-        return places[self.starts[:-1]] == places[self.starts[1:] - 1]
+        ends = self.vertices[self.starts[:-1]], self.vertices[self.starts[1:] - 1]
+        found: NDArray[np.bool_] = (ends[0] == ends[1]).all(axis=1)
+        return found
 
     @cached_property
     def _places(self) -> NDArray[np.complex128]:
@@ -158,9 +159,10 @@ class Line:
         self, mine: slice | NDArray[np.intp], other: Line, others: slice | NDArray[np.intp]
     ) -> NDArray[np.bool_]:
         """Whether vertices of two lines are the same, in pieces of one name."""
-        alike = self.t[mine] == other.t[others]
+        alike: NDArray[np.bool_] = self.t[mine] == other.t[others]
         alike &= self._places[mine] == other._places[others]
-        return alike & (self._names[mine] == other._names[others])
+        alike &= self._names[mine] == other._names[others]
+        return alike
 
 
 def stride_of(runs: Runs) -> float:

@@ -85,10 +85,13 @@ def test_the_background_is_opaque_and_kept(qapp, ratio):
     first = background.pixmap(camera, LIGHT, ratio, QFont(), True)
     assert (first.width(), first.height()) == (round(300 * ratio), round(200 * ratio))
     assert not first.toImage().hasAlphaChannel()
+    key, picture = first.cacheKey(), first.toImage()
     again = background.pixmap(camera, LIGHT, ratio, QFont(), True)
-    assert again.cacheKey() == first.cacheKey()
+    assert again.cacheKey() == key
     other = background.pixmap(camera, DARK, ratio, QFont(), True)
-    assert other.cacheKey() != first.cacheKey()
+    assert other.cacheKey() != key
+    back = background.pixmap(camera, LIGHT, ratio, QFont(), True)
+    assert back.toImage() == picture
 
 
 def test_grid_lines_are_crisp(qapp):
