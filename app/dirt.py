@@ -18,7 +18,8 @@ from typing import Final
 from PySide6.QtCore import QRect
 from PySide6.QtGui import QRegion
 
-from app.ink import Box, Ink
+from app.ink import Ink
+from app.pixel_box import Box
 
 Key = tuple[int, int]
 """Layer, and place within the layer: pictures are painted in rising order."""

@@ -18,30 +18,15 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QPainter, QPainterPath, QPen, QPixmap
+from PySide6.QtGui import QFont, QPainter, QPainterPath, QPen
 
 from app.line import Line
+from app.pixel_box import SMOOTHED_PX, Box, around, gathered, meeting
 from app.polyline import area_within_square, point_of, polygon_of
-from app.style import SIZES, Palette, color
-
-Box = tuple[float, float, float, float]
-"""Left, top, right, bottom, in logical pixels."""
-
-SMOOTHED_PX: Final = 1.5
-"""How far beyond its outline a shape may leave ink: smoothed edges, and rounding to pixels."""
+from app.style import Palette, color
 
 MITRE: Final = 2.0
 """Widths of a pen that its mitred joins reach: Qt's miter limit."""
-
-MOST_PARTS: Final = 8
-"""Number of boxes that the difference of two things is told in."""
-
-_RING_GAP: Final = 3.5
-"""Radius of the hover ring beyond that of the point, in pixels."""
-
-_RING_WIDTH: Final = 3.0
-"""Pen of the hover ring."""
-
 
 class Ink:
     """A thing on the sheet; two that are equal leave the same ink."""
@@ -146,142 +131,6 @@ class Area(Ink):
         painter.setBrush(Qt.BrushStyle.NoBrush)
 
 
-@dataclass(frozen=True, eq=False)
-class _Points(Ink):
-    """Signs of some control points.
-
-    Attributes
-    ----------
-    names, places
-        Rising indices of the points, and their pixels: shapes (h,) and (h, 2).
-    """
-
-    names: NDArray[np.intp]
-    places: NDArray[np.float64]
-
-    @property
-    def look(self) -> tuple[object, ...]:
-        """All that tells these signs from others, except where they are."""
-        raise NotImplementedError
-
-    @property
-    def reach(self) -> float:
-        """Half of a sign's size."""
-        raise NotImplementedError
-
-    @property
-    def box(self) -> Box:
-        return around(self._boxes, self.reach)
-
-    @cached_property
-    def _boxes(self) -> NDArray[np.float64]:
-        return np.concatenate([self.places.T, self.places.T])
-
-    def unlike(self, other: Ink) -> list[Box]:
-        if not isinstance(other, _Points) or self.look != other.look:
-            return [self.box, other.box]
-        if np.array_equal(self.names, other.names):
-            own = others = (self.places != other.places).any(axis=1)
-        else:
-            # Both name the points in rising order, in which those of both are painted.
-            own, others = np.ones(len(self.names), bool), np.ones(len(other.names), bool)
-            _, one, two = np.intersect1d(
-                self.names, other.names, assume_unique=True, return_indices=True
-            )
-            moved = (self.places[one] != other.places[two]).any(axis=1)
-            own[one] = others[two] = moved
-        boxes = [self._boxes[:, own], other._boxes[:, others]]
-        return gathered(np.concatenate(boxes, axis=1), self.reach)
-
-
-@dataclass(frozen=True, eq=False)
-class Handles(_Points):
-    """Control points as small discs with a rim, on whole device pixels, so that they are crisp."""
-
-    rim: str
-    fill: str
-    radius: float
-    ratio: float
-
-    @property
-    def look(self) -> tuple[object, ...]:
-        return self.rim, self.fill, self.radius, self.ratio
-
-    @property
-    def reach(self) -> float:
-        # Half of the picture, the way to whole pixels, and what smoothing adds.
-        return self.radius + SIZES.rim_width + 1.0 + SMOOTHED_PX
-
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        places = self.places[meeting(self._boxes, region, self.reach)]
-        pixmap = _handle(self.rim, self.fill, self.radius, self.ratio)
-        half = pixmap.width() / self.ratio / 2
-        corners = np.rint((places - half) * self.ratio) / self.ratio
-        for x, y in corners.tolist():
-            painter.drawPixmap(QPointF(x, y), pixmap)
-
-
-@dataclass(frozen=True, eq=False)
-class Dots(_Points):
-    """Control points in a crowd."""
-
-    colour: str
-
-    @property
-    def look(self) -> tuple[object, ...]:
-        return (self.colour,)
-
-    @property
-    def reach(self) -> float:
-        return SIZES.dot_radius + SMOOTHED_PX
-
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        places = self.places[meeting(self._boxes, region, self.reach)]
-        painter.setPen(QPen(color(self.colour), 2 * SIZES.dot_radius))
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        painter.drawPoints(polygon_of(places))
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-
-
-@dataclass(frozen=True)
-class Ring(Ink):
-    """A ring around the control point that a press would take."""
-
-    x: float
-    y: float
-    colour: str
-
-    @property
-    def box(self) -> Box:
-        return _square(self.x, self.y, SIZES.point_radius + _RING_GAP + _RING_WIDTH / 2)
-
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        radius = SIZES.point_radius + _RING_GAP
-        painter.setPen(QPen(color(self.colour, 0.35), _RING_WIDTH))
-        painter.drawEllipse(_point(self.x, self.y), radius, radius)
-
-
-@dataclass(frozen=True)
-class Grip(Ink):
-    """A bead on the curve where a press would take it."""
-
-    x: float
-    y: float
-    colour: str
-    rim: str
-
-    @property
-    def box(self) -> Box:
-        return _square(self.x, self.y, SIZES.selected_radius + SIZES.rim_width / 2)
-
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        radius = SIZES.selected_radius
-        painter.setPen(QPen(color(self.rim), SIZES.rim_width))
-        painter.setBrush(color(self.colour))
-        painter.drawEllipse(_point(self.x, self.y), radius, radius)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-
-
 @dataclass(frozen=True)
 class Band(Ink):
     """A rubber band: a rectangle with a border."""
@@ -370,40 +219,6 @@ class Words(Ink):
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, self.text)
 
 
-def around(boxes: NDArray[np.float64], reach: float) -> Box:
-    """Box around boxes, shape (4, k), and a margin; without any, a box that nothing meets."""
-    if not boxes.shape[1]:
-        return np.inf, np.inf, -np.inf, -np.inf
-    left, top = (boxes[:2].min(axis=1) - reach).tolist()
-    right, bottom = (boxes[2:].max(axis=1) + reach).tolist()
-    return left, top, right, bottom
-
-
-def meeting(
-    boxes: NDArray[np.float64], region: NDArray[np.float64], reach: float
-) -> NDArray[np.bool_]:
-    """Which of some boxes, shape (4, k), with a margin, meet a region of rectangles, (r, 4)."""
-    left, top, right, bottom = boxes
-    found = np.zeros(boxes.shape[1], dtype=bool)
-    for low_x, low_y, high_x, high_y in region:
-        meets = (left <= high_x + reach) & (right >= low_x - reach)
-        meets &= (top <= high_y + reach) & (bottom >= low_y - reach)
-        found |= meets
-    return found
-
-
-def gathered(boxes: NDArray[np.float64], reach: float) -> list[Box]:
-    """A few boxes that hold many, shape (4, k), with a margin; neighbours go together."""
-    count = boxes.shape[1]
-    if not count:
-        return []
-    parts = min(count, MOST_PARTS)
-    firsts = np.arange(parts) * count // parts
-    low = np.minimum.reduceat(boxes[:2], firsts, axis=1) - reach
-    high = np.maximum.reduceat(boxes[2:], firsts, axis=1) + reach
-    return [(a, b, c, d) for a, b, c, d in np.concatenate([low, high]).T.tolist()]
-
-
 def _stroke(
     painter: QPainter,
     vertices: NDArray[np.float64],
@@ -432,30 +247,9 @@ def _point(x: float, y: float) -> QPointF:
     return point_of(np.array([x, y]))
 
 
-def _square(x: float, y: float, reach: float) -> Box:
-    reach += SMOOTHED_PX
-    return x - reach, y - reach, x + reach, y + reach
-
-
 @lru_cache(maxsize=32)
 def _pen(colour: str, width: float, opacity: float) -> QPen:
     return QPen(
         color(colour, opacity), width, Qt.PenStyle.SolidLine,
         Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.MiterJoin,
     )  # fmt: skip
-
-
-@lru_cache(maxsize=32)
-def _handle(rim: str, fill: str, radius: float, ratio: float) -> QPixmap:
-    """Picture of a control point, drawn once for each colour, size and screen."""
-    side = 2 * int(np.ceil(radius + SIZES.rim_width)) + 1
-    pixmap = QPixmap(round(side * ratio), round(side * ratio))
-    pixmap.setDevicePixelRatio(ratio)
-    pixmap.fill(Qt.GlobalColor.transparent)
-    with QPainter(pixmap) as painter:
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(color(rim), SIZES.rim_width))
-        painter.setBrush(color(fill))
-        middle = side / 2
-        painter.drawEllipse(QPointF(middle, middle), radius, radius)
-    return pixmap

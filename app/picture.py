@@ -18,10 +18,12 @@ from PySide6.QtGui import QFont, QFontMetricsF
 
 from app.dirt import Key
 from app.drawn import MOST_HANDLES, Drawn
-from app.ink import Area, Band, Box, Dots, Grip, Handles, Ink, Ring, Stroke, Words
+from app.ink import Area, Band, Ink, Stroke, Words
 from app.line import Line
+from app.pixel_box import Box
 from app.scene import Overlay, Scene
 from app.session import Selection
+from app.signs import Dots, Grip, Handles, Ring
 from app.style import SIZES, Palette
 
 HINT_POINTS: Final = 10.5

@@ -8,8 +8,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
 from app.dirt import MOST_RECTANGLES, dirt, merged, region_of
-from app.ink import Ring
 from app.session import Selection
+from app.signs import Ring
 from core.document import Curve, Document
 from core.family import PRESETS
 from mouse import BOAT, SHIFT, Mouse, by, shown

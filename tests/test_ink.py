@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from PySide6.QtGui import QColor, QFont, QImage, QPainter, QRegion
 
-from app.ink import Area, Band, Dots, Grip, Handles, Ring, Stroke, Words, gathered, meeting
+from app.ink import Area, Band, Stroke, Words
 from app.line import line_of, stride_of
+from app.signs import Dots, Grip, Handles, Ring
 from app.style import LIGHT
 from core.runs import Runs
 
@@ -139,18 +140,3 @@ def test_a_local_change_of_a_line_is_a_small_box():
     one, other = list(others())[9]
     boxes = np.array(one.unlike(other))
     assert np.prod(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)) < 0.2 * SIDE**2
-
-
-def test_boxes_meet_a_region_with_their_margin():
-    boxes = np.array([(0.0, 0.0, 10.0, 10.0), (50.0, 50.0, 60.0, 60.0)]).T
-    assert meeting(boxes, np.array([(12.0, 0.0, 20.0, 9.0)]), 3.0).tolist() == [True, False]
-    assert meeting(boxes, np.array([(12.0, 0.0, 20.0, 9.0)]), 1.0).tolist() == [False, False]
-
-
-def test_many_boxes_are_gathered_in_a_few():
-    low = np.stack([np.arange(100.0), np.arange(100.0)])
-    found = np.array(gathered(np.concatenate([low, low + 1]), 2.0))
-    assert len(found) <= 8
-    for corner in low.T:
-        assert ((found[:, :2] <= corner - 2) & (found[:, 2:] >= corner + 3)).all(axis=1).any()
-    assert gathered(np.zeros((4, 0)), 2.0) == []

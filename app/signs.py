@@ -1,0 +1,180 @@
+"""Signs of control points, and of what the mouse would take: small things in great numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QPainter, QPen, QPixmap
+
+from app.ink import Ink
+from app.pixel_box import SMOOTHED_PX, Box, around, gathered, meeting
+from app.polyline import point_of, polygon_of
+from app.style import SIZES, color
+
+_RING_GAP: Final = 3.5
+"""Radius of the hover ring beyond that of the point, in pixels."""
+
+_RING_WIDTH: Final = 3.0
+"""Pen of the hover ring."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Points(Ink):
+    """Signs of some control points.
+
+    Attributes
+    ----------
+    names, places
+        Rising indices of the points, and their pixels: shapes (h,) and (h, 2).
+    """
+
+    names: NDArray[np.intp]
+    places: NDArray[np.float64]
+
+    @property
+    def look(self) -> tuple[object, ...]:
+        """All that tells these signs from others, except where they are."""
+        raise NotImplementedError
+
+    @property
+    def reach(self) -> float:
+        """Half of a sign's size."""
+        raise NotImplementedError
+
+    @property
+    def box(self) -> Box:
+        return around(self._boxes, self.reach)
+
+    @cached_property
+    def _boxes(self) -> NDArray[np.float64]:
+        return np.concatenate([self.places.T, self.places.T])
+
+    def unlike(self, other: Ink) -> list[Box]:
+        if not isinstance(other, _Points) or self.look != other.look:
+            return [self.box, other.box]
+        if np.array_equal(self.names, other.names):
+            own = others = (self.places != other.places).any(axis=1)
+        else:
+            # Both name the points in rising order, in which those of both are painted.
+            own, others = np.ones(len(self.names), bool), np.ones(len(other.names), bool)
+            _, one, two = np.intersect1d(
+                self.names, other.names, assume_unique=True, return_indices=True
+            )
+            moved = (self.places[one] != other.places[two]).any(axis=1)
+            own[one] = others[two] = moved
+        boxes = [self._boxes[:, own], other._boxes[:, others]]
+        return gathered(np.concatenate(boxes, axis=1), self.reach)
+
+
+@dataclass(frozen=True, eq=False)
+class Handles(_Points):
+    """Control points as small discs with a rim, on whole device pixels, so that they are crisp."""
+
+    rim: str
+    fill: str
+    radius: float
+    ratio: float
+
+    @property
+    def look(self) -> tuple[object, ...]:
+        return self.rim, self.fill, self.radius, self.ratio
+
+    @property
+    def reach(self) -> float:
+        # Half of the picture, the way to whole pixels, and what smoothing adds.
+        return self.radius + SIZES.rim_width + 1.0 + SMOOTHED_PX
+
+    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
+        places = self.places[meeting(self._boxes, region, self.reach)]
+        pixmap = _handle(self.rim, self.fill, self.radius, self.ratio)
+        half = pixmap.width() / self.ratio / 2
+        corners = np.rint((places - half) * self.ratio) / self.ratio
+        for x, y in corners.tolist():
+            painter.drawPixmap(QPointF(x, y), pixmap)
+
+
+@dataclass(frozen=True, eq=False)
+class Dots(_Points):
+    """Control points in a crowd."""
+
+    colour: str
+
+    @property
+    def look(self) -> tuple[object, ...]:
+        return (self.colour,)
+
+    @property
+    def reach(self) -> float:
+        return SIZES.dot_radius + SMOOTHED_PX
+
+    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
+        places = self.places[meeting(self._boxes, region, self.reach)]
+        painter.setPen(QPen(color(self.colour), 2 * SIZES.dot_radius))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        painter.drawPoints(polygon_of(places))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+
+
+@dataclass(frozen=True)
+class Ring(Ink):
+    """A ring around the control point that a press would take."""
+
+    x: float
+    y: float
+    colour: str
+
+    @property
+    def box(self) -> Box:
+        return _square(self.x, self.y, SIZES.point_radius + _RING_GAP + _RING_WIDTH / 2)
+
+    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
+        radius = SIZES.point_radius + _RING_GAP
+        painter.setPen(QPen(color(self.colour, 0.35), _RING_WIDTH))
+        painter.drawEllipse(point_of(np.array([self.x, self.y])), radius, radius)
+
+
+@dataclass(frozen=True)
+class Grip(Ink):
+    """A bead on the curve where a press would take it."""
+
+    x: float
+    y: float
+    colour: str
+    rim: str
+
+    @property
+    def box(self) -> Box:
+        return _square(self.x, self.y, SIZES.selected_radius + SIZES.rim_width / 2)
+
+    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
+        radius = SIZES.selected_radius
+        painter.setPen(QPen(color(self.rim), SIZES.rim_width))
+        painter.setBrush(color(self.colour))
+        painter.drawEllipse(point_of(np.array([self.x, self.y])), radius, radius)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+
+
+def _square(x: float, y: float, reach: float) -> Box:
+    reach += SMOOTHED_PX
+    return x - reach, y - reach, x + reach, y + reach
+
+
+@lru_cache(maxsize=32)
+def _handle(rim: str, fill: str, radius: float, ratio: float) -> QPixmap:
+    """Picture of a control point, drawn once for each colour, size and screen."""
+    side = 2 * int(np.ceil(radius + SIZES.rim_width)) + 1
+    pixmap = QPixmap(round(side * ratio), round(side * ratio))
+    pixmap.setDevicePixelRatio(ratio)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    with QPainter(pixmap) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(color(rim), SIZES.rim_width))
+        painter.setBrush(color(fill))
+        middle = side / 2
+        painter.drawEllipse(QPointF(middle, middle), radius, radius)
+    return pixmap
