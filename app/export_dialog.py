@@ -37,6 +37,9 @@ SIZE_PX: Final = (820, 640)
 LIST_PX: Final = 200
 """Width of the list of profiles."""
 
+TITLE_PX: Final = 260
+"""Widest title of a profile above the preview; the list has the others too."""
+
 STALE_MS: Final = 150
 """After this time without a new result the old one is marked as old."""
 
@@ -282,7 +285,10 @@ class ExportDialog(QDialog):
         """Show the sentence, what is changed, and what can be done."""
         offer = self.list.offer
         is_changed = self.profile != offer.profile or bool(self.fields.fault)
-        self.title.setText(offer.profile.title + (", changed" if is_changed else ""))
+        title, metrics = offer.profile.title, self.title.fontMetrics()
+        elided = metrics.elidedText(title, Qt.TextElideMode.ElideRight, TITLE_PX)
+        self.title.setText(elided + (", changed" if is_changed else ""))
+        self.title.setToolTip(title if elided != title else "")
         self.reset.setEnabled(is_changed)
         self.export.setEnabled(not self._is_busy and not self.fault)
         self.keep.setEnabled(not self.fields.fault)
@@ -291,7 +297,11 @@ class ExportDialog(QDialog):
             self._say(fault[0].upper() + fault[1:], is_fault=True)  # it began with a field's name
         elif self._failure:
             self._say(self._failure, is_fault=True)
-        elif self._survey is not None and (self._is_current or not self._stale.isActive()):
+        elif self._stale.isActive() and not self._is_current:
+            return  # a moment in which the new result may still come
+        elif self._survey is None:
+            self._say("Measuring\u2026", is_old=True)
+        else:
             survey = self._survey
             is_old = not self._is_current
             self._say(survey.words, is_fault=not survey.is_possible and not is_old, is_old=is_old)

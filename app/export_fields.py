@@ -119,8 +119,8 @@ ROWS: Final = (
     ),
     Row(
         "kerf_mm", "&Kerf",
-        "Moves closed outlines outwards by this much, or inwards below 0: half the width that the"
-        " tool cuts away keeps the part's size.",
+        "How far the tool runs from the part: outlines grow and holes shrink by it, below 0 the"
+        " other way. Half the width of the cut keeps the part's size.",
         _draws, unit="mm",
     ),
     Row(

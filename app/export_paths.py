@@ -16,8 +16,9 @@ from core.flatten import Polyline
 from core.formats.boxes import Shape
 from core.splines import Spline
 
-LONG: Final = 2000
-"""Pieces of a path up to which it is drawn in one go: a millisecond or two."""
+LONG: Final = 500
+"""Pieces of a path up to which it is drawn in one go: a few milliseconds, in which no other thread
+of Python's runs."""
 
 _ELEMENT: Final = np.dtype([("kind", ">i4"), ("place", ">f8", 2)])
 """An element of a path as Qt's streams hold it."""
@@ -84,12 +85,17 @@ def painter_paths(
     Yields
     ------
     QPainterPath
-        The shape, closed if it is; one of more than `LONG` pieces in open parts that join.
+        The shape, closed if it is; one of more than `LONG` pieces in open parts. Each of these
+        begins with the last piece of the one before, so that they join as the pieces in them do.
     """
     pieces = (pieces_of(shape) - corner) * (scale, -scale)
-    parts = max(-(-len(pieces) // LONG), 1)
-    for part in np.array_split(pieces, parts):
-        yield _path(part, shape.closed and parts == 1)
+    if len(pieces) <= LONG:
+        yield _path(pieces, shape.closed)
+        return
+    before = pieces[-1:] if shape.closed else pieces[:0]
+    for part in np.array_split(pieces, -(-len(pieces) // LONG)):
+        yield _path(np.concatenate([before, part]), False)
+        before = part[-1:]
 
 
 def _path(pieces: NDArray[np.float64], closed: bool) -> QPainterPath:

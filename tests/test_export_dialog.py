@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialogButtonBox
 
 from answers import Answers
-from app.export_dialog import ExportDialog
+from app.export_dialog import SIZE_PX, ExportDialog
 from app.export_shelf import Place, Shelf
 from app.pages import register_encoders
 from app.session import Session
@@ -133,6 +133,14 @@ def test_the_last_result_stays_and_is_marked_until_there_is_another(qtbot, dialo
     assert dialog.export.isEnabled()
 
 
+def test_before_the_first_result_it_is_measured(qtbot, opened, monkeypatch):
+    monkeypatch.setattr("app.export_survey.Surveyor.ask", lambda *_: None)
+    dialog = opened()
+    qtbot.waitUntil(lambda: not dialog._stale.isActive())
+    assert dialog.sentence.text() == "Measuring\u2026"
+    assert dialog.export.isEnabled()
+
+
 @pytest.mark.parametrize("palette", [LIGHT, DARK])
 def test_faults_stand_in_their_place_and_nothing_is_exported(qtbot, dialog, palette):
     dialog.setPalette(window_palette(palette))
@@ -233,6 +241,16 @@ def test_an_own_profile_is_saved_again_under_its_name(dialog, answers, settings)
     assert answers.asked == ["", "Thin lines"]
     (kept,) = settings.export_profiles
     assert kept.tolerance_mm == 1.0
+
+
+def test_a_long_title_does_not_widen_the_dialog(dialog, answers):
+    width = dialog.minimumSizeHint().width()
+    answers.typed = "W" * 100
+    dialog.for_all.trigger()
+    assert dialog.title.text().endswith("\u2026")
+    assert dialog.title.toolTip() == "W" * 100
+    assert dialog.minimumSizeHint().width() <= width + 300
+    assert dialog.width() == SIZE_PX[0]
 
 
 def test_a_title_that_cannot_be_is_told(dialog, answers, settings):
