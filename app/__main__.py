@@ -9,7 +9,8 @@ def main() -> None:
     # Read when numpy is imported: our matrices are small, and a pool of threads only delays them.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
-        if len(sys.argv) > 1:
+        # A shell asks without words for what words there could be (`app.commands.completion`).
+        if len(sys.argv) > 1 or "_NINEPOINT_COMPLETE" in os.environ:
             from app.cli import main as command_line
 
             command_line()

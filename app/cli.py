@@ -14,9 +14,16 @@ from pathlib import Path
 from typing import Final, NoReturn
 
 import click
+from click.shell_completion import CompletionItem
 
 from app.commands.analyse import analyse
+from app.commands.completion import completion
+from app.commands.convert import convert
 from app.commands.export import export
+from app.commands.info import info
+from app.commands.manual import STATUS, FileOf, files_of
+from app.commands.profiles import profiles
+from app.commands.reading import READABLE, Reading
 from app.commands.sample import sample
 from app.entrance import NAME, USER_ERROR, open_window, speak_plainly, status_of, tell_words
 
@@ -33,29 +40,44 @@ Examples:
   ninepoint wing.ninepoint             open a drawing
   ninepoint --screenshot wing.png wing.ninepoint
   ninepoint export wing.ninepoint wing.dxf
-  ninepoint export points.csv shape.svg --beta -1/2 --closed
+  ninepoint export *.ninepoint --profile laser --out cut
+  ninepoint convert logo.svg logo.ninepoint --fit 0.05
+  ninepoint info wing.ninepoint
   ninepoint analyse --alpha 1/4 --beta -1/2 --gamma 1/4
-  ninepoint sample wing.ninepoint --level 4 --csv wing.csv
 """
+
+_ANSWERS_IN_JSON: Final = ("analyse", "info")
+"""Commands whose errors are JSON too, with --json."""
+
 
 class _Commands(click.Group):
     """The commands; a call that names none of them is one of the window's."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         own = (*self.commands, "--version", *ctx.help_option_names)
-        return super().parse_args(ctx, args if args and args[0] in own else [_WINDOW, *args])
+        # A shell that completes the first word asks without one.
+        if not (args and args[0] in own) and not (ctx.resilient_parsing and not args):
+            args = [_WINDOW, *args]
+        return super().parse_args(ctx, args)
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        window = self.commands[_WINDOW]
+        if incomplete.startswith("-"):
+            return window.shell_complete(click.Context(window, parent=ctx), incomplete)
+        return super().shell_complete(ctx, incomplete) or files_of(incomplete, READABLE)
 
     def format_usage(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         formatter.write_usage(NAME, "[OPTIONS] [FILE]")
-        for call in ("export [OPTIONS] IN OUT", "analyse [OPTIONS]", "sample [OPTIONS] IN"):
-            formatter.write_usage(NAME, call, prefix=" " * len("Usage: "))
+        formatter.write_usage(NAME, "COMMAND [OPTIONS] ...", prefix=" " * len("Usage: "))
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        self.format_commands(ctx, formatter)
         options = [*self.commands[_WINDOW].params, *self.get_params(ctx)]
         records = (option.get_help_record(ctx) for option in options if option.name != "files")
         with formatter.section("Options"):
             formatter.write_dl(list(dict.fromkeys(filter(None, records))))
-        self.format_commands(ctx, formatter)
+        with formatter.section("Exit status"):
+            formatter.write_dl(STATUS)
 
 
 def main(args: Sequence[str] | None = None) -> NoReturn:
@@ -76,7 +98,8 @@ def main(args: Sequence[str] | None = None) -> NoReturn:
     """
     speak_plainly()
     words = list(sys.argv[1:] if args is None else args)
-    tell = _tell_json if words[:1] == ["analyse"] and "--json" in words else tell_words
+    in_json = words and words[0] in _ANSWERS_IN_JSON and "--json" in words
+    tell = _tell_json if in_json else tell_words
     sys.exit(status_of(lambda: _run(words, tell), tell))
 
 
@@ -142,12 +165,13 @@ def _size(text: str | None) -> tuple[int, int] | None:
 def _commands() -> None:
     """Draw curves with the three-parameter 9-point subdivision scheme.
 
-    FILE is a .ninepoint drawing, or points in two columns (.csv, .tsv, .txt, .dat).
+    FILE is a .ninepoint drawing, points in two columns (.csv, .tsv, .txt, .dat, .json), or a
+    drawing of another program (.svg, .dxf).
     """
 
 
 @_commands.command(_WINDOW, hidden=True, add_help_option=False)
-@click.argument("files", metavar="[FILE]", nargs=-1, type=click.Path(path_type=Path))
+@click.argument("files", metavar="[FILE]", nargs=-1, type=FileOf(*READABLE))
 @click.option(
     "--screenshot",
     metavar="PNG",
@@ -182,12 +206,32 @@ def _open_window(
 ) -> int:
     path = _only_file(files)
     if path is not None:
-        from core.formats import open_document
-
-        open_document(path)  # a bad file is refused here, before there is a window
+        _require_readable(path)  # a bad file is refused here, before there is a window
     if screenshot is not None and screenshot.suffix.lower() != ".png":
         raise click.UsageError(f"The picture is a PNG file; {screenshot} must end in .png.")
     return open_window(path, screenshot, size, theme)
+
+
+def _require_readable(path: Path) -> None:
+    """Refuse a bad file; a drawing of another program is only looked at when the user sees it."""
+    from core import atomic
+    from core.formats import open_document
+    from core.formats.foreign import SUFFIXES
+
+    if path.suffix.lower() in SUFFIXES:
+        atomic.read(path)
+    else:
+        open_document(path)
+
+
+def _check(path: Path) -> None:
+    """Refuse a bad file here, before there is a window."""
+    from core.formats.foreign import SUFFIXES, read_sketch
+
+    if path.suffix.lower() in SUFFIXES:
+        read_sketch(path)
+    else:
+        Reading().document(path)
 
 
 def _only_file(files: tuple[Path, ...]) -> Path | None:
@@ -202,5 +246,5 @@ def _only_file(files: tuple[Path, ...]) -> Path | None:
     return first
 
 
-for _command in (export, analyse, sample):
+for _command in (export, convert, info, profiles, analyse, sample, completion):
     _commands.add_command(_command)

@@ -87,15 +87,20 @@ def test_parameters_that_are_not_given_are_those_of_the_drawing(folder, run):
 
 def test_closing_and_opening_apply_to_drawings_too(folder, run):
     for option, closed in (("--closed", True), ("--open", False)):
-        assert run("export", "letter.ninepoint", "a.dxf", option)[0] == 0
+        assert run("export", "letter.ninepoint", "a.dxf", option, "--force")[0] == 0
         assert {e.closed for e in ezdxf.readfile("a.dxf").modelspace()} == {closed}
 
 
-def test_an_existing_export_is_replaced_and_the_source_never(folder, run):
+def test_an_existing_file_is_replaced_by_force_and_the_source_never(folder, run):
     Path("link.svg").symlink_to("square.csv")
     assert run("export", "square.csv", "a.svg")[0] == 0
-    assert run("export", "square.csv", "a.svg", "--tolerance", "0.1")[0] == 0
-    status, output, errors = run("export", "square.csv", "link.svg")
+    before = Path("a.svg").read_bytes()
+    again = ("export", "square.csv", "a.svg", "--tolerance", "0.1")
+    assert run(*again) == (2, "", "ninepoint: a.svg: it exists already; --force replaces it.\n")
+    assert Path("a.svg").read_bytes() == before
+    assert run(*again, "--force")[0] == 0
+    assert Path("a.svg").read_bytes() != before
+    status, output, errors = run("export", "square.csv", "link.svg", "--force")
     assert (status, output) == (2, "")
     assert "IN and OUT are the same file" in errors
     assert Path("square.csv").read_text() == SQUARE
@@ -136,7 +141,7 @@ def test_a_bad_file_is_one_sentence_and_status_2(folder, run, window, name):
     if contents is not None:
         Path(name).write_bytes(contents)
     Path("old.svg").write_text("old")
-    for args in (("export", name, "old.svg"), (name,), (name, "--screenshot", "a.png")):
+    for args in (("export", name, "old.svg", "--force"), (name,), (name, "--screenshot", "a.png")):
         status, output, errors = run(*args)
         assert (status, output) == (2, "")
         assert errors.startswith(f"ninepoint: {sentence}")
@@ -160,7 +165,7 @@ def test_a_bad_file_is_one_sentence_and_status_2(folder, run, window, name):
         (["--neighbours", "sideways"], "Invalid value for '--neighbours'"),
         (["--alpha"], "Option '--alpha' requires an argument."),
         (["--delta", "1"], "No such option"),
-        (["more"], "Got unexpected extra argument"),
+        (["more"], "More than two files need a folder to go to: --out FOLDER."),
         (["--alpha", "100", "--gamma", "100"], "No deviation can be proven"),
     ],
 )
@@ -174,16 +179,18 @@ def test_a_bad_option_is_named_with_status_2(folder, run, options, sentence):
 @pytest.mark.parametrize(
     ("target", "sentence"),
     [
-        ("a.pdf", "a.pdf: files that end in '.pdf' cannot be exported; the endings .svg, .dxf, "),
+        ("a.gif", "a.gif: files that end in '.gif' cannot be exported; the endings .svg, .dxf, "),
         ("a", "a: files without an ending cannot be exported"),
         ("missing/a.svg", "a.svg: its folder does not exist."),
         ("square.csv/a.svg", "a.svg: a part of its path is a file, not a folder."),
-        ("folder.svg", "folder.svg: it is a folder, not a file."),
+        ("folder.svg", "folder.svg: it exists already; --force replaces it."),
+        ("folder", "folder is a folder; to write into it, say --out folder."),
         ("x" * 300 + ".svg", "x" * 300 + ".svg: "),
     ],
 )
 def test_a_bad_target_is_one_sentence_and_status_2(folder, run, target, sentence):
     Path("folder.svg").mkdir()
+    Path("folder").mkdir()
     status, output, errors = run("export", "square.csv", target)
     assert (status, output) == (2, "")
     assert errors.startswith(f"ninepoint: {sentence}")
@@ -266,7 +273,7 @@ def test_help_shows_every_option_and_examples(run):
     assert run("--size", "900x600", "--help")[1] == output
     status, output, _ = run("export", "--help")
     assert status == 0
-    for word in ("IN OUT", "--tolerance", "--alpha", "--beta", "--gamma", "--closed", "replaced"):
+    for word in ("IN OUT", "--tolerance", "--alpha", "--gamma", "--closed", "whole or not at all"):
         assert word in output
 
 

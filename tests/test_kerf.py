@@ -192,7 +192,7 @@ def test_every_point_of_an_offset_keeps_its_distance(polygon, kerf):
     try:
         found = offset([polygon], kerf, TOLERANCE)
     except NinepointError as error:
-        if "nothing is left" not in str(error):
+        if "nothing is left" not in str(error) and "lie on each other" not in str(error):
             raise
         return
     assert found.deviation <= TOLERANCE

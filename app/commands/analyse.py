@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import json
+from typing import Final
 
 import click
 
+from app.commands.manual import Manual
 from app.commands.scheme import chosen, scheme_options
 
-_EXAMPLES = """\
-\b
-Examples:
-  ninepoint analyse --beta -1/2
-  ninepoint analyse --alpha 1/4 --beta -1/2 --gamma 1/4 --json
-  ninepoint analyse --alpha 3/10 --beta -3/5 --gamma -1/5 --neighbours mirrored
-"""
+_EXAMPLES: Final = (
+    "analyse --beta -1/2",
+    "analyse --alpha 1/4 --beta -1/2 --gamma 1/4 --json",
+    "analyse --alpha 3/10 --beta -3/5 --gamma -1/5 --neighbours mirrored",
+)
 
 
-@click.command("analyse", epilog=_EXAMPLES)
+@click.command("analyse", cls=Manual, short_help="Report what is proven.", examples=_EXAMPLES)
 @scheme_options
 @click.option("--json", "as_json", is_flag=True, help="Answer in JSON, errors too.")
 @click.option("--latex", "as_latex", is_flag=True, help="Answer in LaTeX, for a paper.")

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Final
 
 import click
 
-from app.commands.scheme import chosen, closing, scheme_options
-from core.errors import NinepointError
+from app.commands.manual import FileOf, Manual
+from app.commands.reading import FILES_READ, READABLE, Reading
+from app.commands.scheme import closing, scheme_options
+from core.errors import FileError, NinepointError
 
 MAX_SAMPLES: Final = 5_000_000
 """Largest number of lines that is written."""
@@ -18,16 +21,20 @@ _MAX_LEVEL: Final = 20
 _NEEDED_ORDER: Final = 2
 """Class that all columns need: curvature is made of second derivatives."""
 
-_EXAMPLES = """\
-\b
-Examples:
-  ninepoint sample wing.ninepoint --level 4
-  ninepoint sample points.csv --level 6 --beta -1 --open --csv samples.csv
-"""
+_EXAMPLES: Final = (
+    "sample wing.ninepoint --level 4",
+    "sample points.csv --level 6 --beta -1 --open --csv samples.csv",
+)
 
 
-@click.command("sample", epilog=_EXAMPLES)
-@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
+@click.command(
+    "sample",
+    cls=Manual,
+    short_help="Print exact points.",
+    examples=_EXAMPLES,
+    files=FILES_READ,
+)
+@click.argument("source", metavar="IN", type=FileOf(*READABLE))
 @click.option(
     "--level",
     type=click.IntRange(0, _MAX_LEVEL),
@@ -44,6 +51,7 @@ Examples:
     type=click.Path(path_type=Path),
     help="Write into a file instead of the terminal.",
 )
+@click.option("--force", is_flag=True, help="Replace OUT if it exists already.")
 def sample(
     source: Path,
     level: int,
@@ -53,6 +61,7 @@ def sample(
     neighbours: str | None,
     closed: bool | None,
     target: Path | None,
+    force: bool,
 ) -> None:
     """Print t, x, y, dx, dy and curvature of the curves of IN at every dyadic t of a level.
 
@@ -63,13 +72,11 @@ def sample(
     """
     from core import atomic
     from core.continuity import smoothness
-    from core.formats import open_document
     from core.formats.tables import LIMIT_COLUMNS, cell, limit_rows
 
-    document = open_document(source, closed)
-    parameters = chosen(
-        document.parameters, alpha=alpha, beta=beta, gamma=gamma, neighbours=neighbours
-    )
+    scheme = {"alpha": alpha, "beta": beta, "gamma": gamma, "neighbours": neighbours}
+    document, notes = Reading(closed, scheme).document(source)
+    parameters = document.parameters
     limits = [curve.limit(parameters) for curve in document.curves]
     total = sum(limit.spans for limit in limits) * 2**level
     if total > MAX_SAMPLES:
@@ -81,6 +88,8 @@ def sample(
     if order is None or order < _NEEDED_ORDER:
         missing = "the curvature stays" if order == 1 else "tangents and curvature stay"
         click.echo(f"ninepoint: {missing} empty: C^{_NEEDED_ORDER} is not proven here.", err=True)
+    for note in notes:
+        click.echo(f"ninepoint: {note}", err=True)
     lines = [",".join(LIMIT_COLUMNS) + (",curve" if several else "")]
     for number, limit in enumerate(limits, start=1):
         ending = f",{number}" if several else ""
@@ -92,5 +101,7 @@ def sample(
         return
     if target.exists() and target.samefile(source):
         raise click.UsageError("IN and OUT are the same file.")
+    if not force and os.path.lexists(target):
+        raise FileError(target, "it exists already; --force replaces it.")
     atomic.write(target, text.encode())
     click.echo(f"{target}: {len(lines) - 1:,} points")
