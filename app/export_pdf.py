@@ -37,6 +37,9 @@ MAX_SIDE: Final = 14_400
 _PLACES: Final = 6
 """Decimals of the page's sides in points."""
 
+_LEVEL: Final = 1
+"""Of compression: five times as fast as the usual 6, for an eighth more bytes."""
+
 _FIRST_LAYER: Final = 6
 """Number of the first object that is a layer."""
 
@@ -71,7 +74,7 @@ def encode(contours: Contours, title: str) -> bytes:
         f"<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {width} {height}] /UserUnit {unit}"
         f" /Contents 4 0 R /Resources << /Properties << {names} >> >> >>"
     )
-    drawn = zlib.compress(_content(contours, unit, list(layers)))
+    drawn = zlib.compress(_content(contours, unit, list(layers)), _LEVEL)
     return _file(
         [
             catalog.encode(),
