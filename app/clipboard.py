@@ -154,7 +154,7 @@ class Clipboard(QObject):
         """End all work; what was copied stays, as far as it was made."""
         self._making.stop()
         board = QGuiApplication.clipboard()
-        data = board.mimeData() if board.ownsClipboard() else None
+        data = board.mimeData()
         if isinstance(data, DrawingData):
             board.setMimeData(data.kept())
 

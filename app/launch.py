@@ -22,6 +22,7 @@ from app.icons import program_icon
 from app.settings import Settings
 from app.theme import Look, styled_application
 from app.window import DEFAULT_SIZE, MainWindow
+from core.document import Document
 from core.errors import FileError
 
 IDLE_MESSAGE: Final = "This plugin does not support propagateSizeHints()"
@@ -91,9 +92,7 @@ def run(
 def _draw(window: MainWindow, path: Path | None, picture: Path, size: tuple[int, int]) -> int:
     """Write a picture of the complete window; errors are raised, there is nobody to be asked."""
     if path is not None:
-        from core.formats import open_document
-
-        window.files.show_document(open_document(path), path)
+        window.files.show_document(_unasked(path), path)
     loop = QEventLoop()
     window.completed.connect(loop.quit)
     window.resize(*size)
@@ -110,6 +109,18 @@ def _draw(window: MainWindow, path: Path | None, picture: Path, size: tuple[int,
     if not written:
         raise FileError(picture, "the picture cannot be written there.")
     return 0
+
+
+def _unasked(path: Path) -> Document:
+    """Drawing in a file; curves are fitted to the lines of another program's."""
+    from core.formats import open_document
+    from core.formats.fitted import fitted
+    from core.formats.foreign import SUFFIXES, read_sketch
+
+    if path.suffix.lower() not in SUFFIXES:
+        return open_document(path)
+    sketch = read_sketch(path)
+    return fitted(sketch)[0] if sketch.document is None else sketch.document
 
 
 def _search_what_comes() -> None:

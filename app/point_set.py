@@ -123,4 +123,5 @@ def _distinct(points: NDArray[np.intp]) -> NDArray[np.intp]:
     if (points[1:] > points[:-1]).all():
         return points
     points = np.sort(points, kind="stable")
-    return points[np.append(True, points[1:] > points[:-1])]
+    kept: NDArray[np.intp] = points[np.append(True, points[1:] > points[:-1])]
+    return kept

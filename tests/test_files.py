@@ -145,6 +145,30 @@ def test_points_become_a_drawing_without_a_file(files, session, answers, tmp_pat
     assert points.read_bytes() == before
 
 
+@pytest.mark.parametrize("name", ["wing.svg", "WING.DXF", "wing.svgz"])
+def test_a_drawing_of_another_program_is_handed_on(qtbot, files, session, answers, tmp_path, name):
+    path = tmp_path / name
+    path.write_text("anything")
+    before = session.document
+    with qtbot.waitSignal(files.foreign) as handed:
+        assert not files.open_path(path)
+    assert handed.args == [path]
+    assert session.document is before
+    assert (answers.shown, files.recent) == ([], [])
+
+
+def test_before_a_foreign_file_is_read_unsaved_changes_are_asked_about(
+    files, session, answers, tmp_path
+):
+    handed = []
+    files.foreign.connect(handed.append)
+    change(session)
+    answers.answer = Answer.CANCEL
+    assert not files.open_path(tmp_path / "wing.svg")
+    assert answers.asked == [UNTITLED]
+    assert handed == []
+
+
 def test_opening_again_comes_back_exactly_there(qtbot, files, session, answers, tmp_path):
     change(session, "Lean")
     answers.path = tmp_path / "wing.ninepoint"

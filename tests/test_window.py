@@ -450,6 +450,34 @@ def test_a_screenshot_of_a_file(qtbot, tmp_path):
     assert (tmp_path / "window.png").stat().st_size > 10_000
 
 
+def test_a_screenshot_of_a_drawing_of_another_program(qtbot, tmp_path):
+    path = tmp_path / "square.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="60mm" viewBox="0 0 60 60">'
+        '<circle cx="30" cy="30" r="20"/></svg>'
+    )
+    assert run(path, tmp_path / "window.png", None, "light") == 0
+    assert (tmp_path / "window.png").stat().st_size > 10_000
+
+
+def test_the_keys_of_the_edit_menu_copy_and_paste(qtbot, window):
+    window.canvas.setFocus()
+    ctrl = Qt.KeyboardModifier.ControlModifier
+    for key in (Qt.Key.Key_A, Qt.Key.Key_C, Qt.Key.Key_V, Qt.Key.Key_D, Qt.Key.Key_X):
+        QTest.keyClick(window.canvas, key, ctrl)
+    assert [curve.name for curve in window.session.document.curves] == ["Curve 1", "Curve 2"]
+    assert window.session.undo_name == "Cut curve"
+    assert "Duplicated" in window.status.hint.text()
+
+
+def test_in_the_table_the_same_keys_copy_numbers(qtbot, window):
+    window.points.table.selectRow(2)
+    window.points.table.setFocus()
+    QTest.keyClick(window.points.table, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    assert QGuiApplication.clipboard().text() == "110.0\t10.0\n"
+    assert window.status.hint.text() == "Copied point as numbers."
+
+
 def test_a_screenshot_that_cannot_be_made_is_refused(qtbot, tmp_path):
     with pytest.raises(NinepointError, match=r"missing\.csv"):
         run(tmp_path / "missing.csv", tmp_path / "window.png")
