@@ -93,7 +93,8 @@ class Profile(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     layers
         One of `LAYERS`.
     origin
-        One of `ORIGINS`, for DXF and tables. The page of SVG, PDF and PNG is the drawing's box.
+        One of `ORIGINS`, for DXF and tables. The page of SVG and PDF is the drawing's box; that of
+        PNG has half a line's width more on each side.
     kerf_mm
         Offset of the contours by the radius of a tool: > 0 to the outside of what a closed curve
         encloses, < 0 to its inside, 0 for none.
