@@ -110,13 +110,15 @@ class ImportDialog(QDialog):
         for unit in UNITS_MM:
             self.unit.addItem(f"{WORDS[unit]} ({unit})" if unit in WORDS else unit, unit)
         self.unit.setCurrentIndex(list(UNITS_MM).index(sketch.unit))
-        self.doubt = _sentence("The file does not say it. Check the size.")
+        self.doubt = QLabel("A guess: please check the size.")
         self.doubt.setVisible(not sketch.is_unit_known)
         self.size_label = QLabel()
         self.size_label.setAccessibleName("Size of the drawing")
         self.contents = QLabel(contents(sketch))
-        self.contents.setAccessibleName("Contents of the file")
-        self.contents.setWordWrap(True)
+        self.contents.setAccessibleName("Contours of the file")
+        pieces = "line or curve" if self._pieces == 1 else "lines and curves"
+        self.pieces = QLabel(f"{self._pieces:,} {pieces}")
+        self.pieces.setAccessibleName("Pieces of the contours")
         self.fit = QRadioButton("&Fit curves within")
         self.fit.setToolTip("Few control points whose curves keep to the lines, proven")
         self.field = NumberField("tolerance", check_tolerance)
@@ -173,11 +175,11 @@ class ImportDialog(QDialog):
         form = QFormLayout()
         form.setHorizontalSpacing(12)
         form.setVerticalSpacing(8)
-        form.setLabelAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
         form.addRow("&Unit", self.unit)
         form.addRow("", self.doubt)
         form.addRow("Size", self.size_label)
-        form.addRow("Holds", self.contents)
+        form.addRow("Contours", self.contents)
+        form.addRow("Made of", self.pieces)
         tolerance = QHBoxLayout()
         tolerance.setSpacing(8)
         for part in (self.fit, self.field, QLabel("mm")):
@@ -345,12 +347,6 @@ def check_tolerance(number: Fraction) -> None:
 def _length(value: float) -> str:
     """A length in mm: two decimals, or as many as a small one needs."""
     return f"{value:.2f}" if value >= 1 or value == 0 else f"{value:.3g}"
-
-
-def _sentence(words: str) -> QLabel:
-    label = QLabel(words)
-    label.setWordWrap(True)
-    return label
 
 
 def _heading(words: str) -> QLabel:

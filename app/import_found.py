@@ -62,16 +62,13 @@ def taking(sketch: Sketch, unit: str, parameters: Parameters, way: Way) -> Task:
 
 
 def contents(sketch: Sketch) -> str:
-    """What a sketch holds: "3 contours, 2 of them closed" and "66 lines and curves" below."""
+    """How many contours a sketch has: "3, of which 2 are closed"."""
     total, closed = len(sketch.traces), sum(trace.closed for trace in sketch.traces)
-    pieces = sum(len(trace.controls) for trace in sketch.traces)
     if total == 1:
-        words = f"1 {'closed' if closed else 'open'} contour"
-    elif closed in (0, total):
-        words = f"{total:,} {'closed' if closed else 'open'} contours"
-    else:
-        words = f"{total:,} contours, {closed:,} of them closed"
-    return f"{words}\n{pieces:,} {'line or curve' if pieces == 1 else 'lines and curves'}"
+        return "1, closed" if closed else "1, open"
+    if closed in (0, total):
+        return f"{total:,}, all {'closed' if closed else 'open'}"
+    return f"{total:,}, of which {closed:,} {'is' if closed == 1 else 'are'} closed"
 
 
 def outcome(document: Document, deviation: float | None, sketch: Sketch) -> str:

@@ -50,7 +50,7 @@ class PointsTable(QTableView):
         rows = self._rows
         places = curve.places(rows) if len(rows) else curve.points
         QGuiApplication.clipboard().setText(as_text(places))
-        self.told.emit(f"{counted('Copied', len(places))} as numbers.")
+        self.told.emit(f"Copied {_points(len(places))} as numbers.")
 
     def cut(self) -> None:
         """Copy the selected rows and delete their points."""
@@ -84,7 +84,7 @@ class PointsTable(QTableView):
         self._session.commit()
         self._session.edit(document, counted("Paste", len(places)))
         self._session.select(Selection(PointSet({index: pasted}), index))
-        self.told.emit(f"{counted('Pasted', len(places))}.")
+        self.told.emit(f"Pasted {_points(len(places))}.")
 
     @property
     def _curve(self) -> Curve | None:
@@ -130,3 +130,7 @@ def with_rows(
     first = int(rows[0]) if len(rows) else curve.count
     rest = curve.without(rows)
     return rest.inserted(first, places), np.arange(first, first + len(places))
+
+
+def _points(count: int) -> str:
+    return "1 point" if count == 1 else f"{count:,} points"

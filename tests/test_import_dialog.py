@@ -68,7 +68,8 @@ def test_it_shows_what_the_file_holds_and_what_it_becomes(qtbot, shown):
     dialog = shown(arc())
     assert dialog.windowTitle() == "Import wing.dxf"
     assert dialog.size_label.text() == "100.00 \u00d7 100.00 mm"
-    assert dialog.contents.text() == "1 open contour\n1 line or curve"
+    assert dialog.contents.text() == "1, open"
+    assert dialog.pieces.text() == "1 line or curve"
     assert dialog.doubt.isHidden()
     found = settled(qtbot, dialog)
     (curve,) = found.document.curves
@@ -200,9 +201,9 @@ def test_notes_of_the_reader_are_shown(shown):
 @pytest.mark.parametrize(
     ("traces", "words"),
     [
-        ([polygon()], "1 closed contour\n4 lines and curves"),
-        ([polygon(), polygon()], "2 closed contours\n8 lines and curves"),
-        ([polygon(), Trace(ARC, False)], "2 contours, 1 of them closed\n5 lines and curves"),
+        ([polygon()], "1, closed"),
+        ([polygon(), polygon()], "2, all closed"),
+        ([polygon(), Trace(ARC, False)], "2, of which 1 is closed"),
     ],
 )
 def test_contents_in_words(traces, words):

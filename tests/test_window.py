@@ -475,7 +475,7 @@ def test_in_the_table_the_same_keys_copy_numbers(qtbot, window):
     window.points.table.setFocus()
     QTest.keyClick(window.points.table, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     assert QGuiApplication.clipboard().text() == "110.0\t10.0\n"
-    assert window.status.hint.text() == "Copied point as numbers."
+    assert window.status.hint.text() == "Copied 1 point as numbers."
 
 
 def test_a_screenshot_that_cannot_be_made_is_refused(qtbot, tmp_path):
