@@ -102,3 +102,13 @@ def test_the_source_is_never_written_over(run, source):
     assert status == 2
     assert "same file" in err
     assert source.read_bytes() == before
+
+
+def test_an_existing_file_is_replaced_by_force_only(run, source, tmp_path):
+    target = tmp_path / "out.csv"
+    target.write_text("old")
+    status, _, err = run(source, "--csv", target)
+    assert (status, err) == (2, "ninepoint: out.csv: it exists already; --force replaces it.\n")
+    assert target.read_text() == "old"
+    assert run(source, "--csv", target, "--force")[0] == 0
+    assert target.read_text() != "old"

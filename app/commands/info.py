@@ -146,7 +146,7 @@ def _tell(found: dict[str, Any]) -> None:
         numbers = ", ".join(scheme[key] for key in ("alpha", "beta", "gamma"))
         _line("scheme", f"({numbers}){called}{mirrored}")
         order = scheme["class"]
-        _line("proven", "nothing" if order is None else f"C^{order}")
+        _line("smooth", "nothing is proven" if order is None else f"C^{order}, proven")
     if found["profiles"]:
         _line("profiles", ", ".join(found["profiles"]))
     for note in found["notes"]:

@@ -50,7 +50,8 @@ def chosen(present: Parameters, **options: str | None) -> Parameters:
     """
     from core.family import Parameters
 
-    values: dict[str, Any] = {name: getattr(present, name) for name in options}
+    names = ("alpha", "beta", "gamma", "neighbours")
+    values: dict[str, Any] = {name: getattr(present, name) for name in names}
     values.update({name: text for name, text in options.items() if text is not None})
     try:
         return Parameters(**values)
