@@ -25,9 +25,9 @@ from app.worker import Task, Worker
 from core import atomic
 from core.document import Curve, Document
 from core.errors import NinepointError
-from core.formats.sketch import Sketch
 
 if TYPE_CHECKING:
+    from core.formats.sketch import Sketch
     from core.polytope import Cancelled
 
 STEP_PX: Final = 14.0

@@ -46,6 +46,8 @@ LEAST_SIDE_MM: Final = 1.0
 class DrawingData(QMimeData):
     """The curves of a document, in the forms that other programs ask for.
 
+    It must not outlive Python: before the program ends, `kept` takes its place on the clipboard.
+
     Parameters
     ----------
     document

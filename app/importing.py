@@ -14,7 +14,6 @@ from PySide6.QtWidgets import QProgressDialog, QWidget
 from app.adding import add_curves
 from app.dialogs import Dialogs
 from app.files import Files
-from app.import_dialog import ImportDialog
 from app.import_way import Way
 from app.session import Session
 from app.settings import Settings
@@ -22,11 +21,10 @@ from app.worker import Task, Worker
 from core.document import Document
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
-from core.formats import open_document
-from core.formats.foreign import SUFFIXES, read_sketch
-from core.formats.sketch import Sketch
 
 if TYPE_CHECKING:
+    from app.import_dialog import ImportDialog
+    from core.formats.sketch import Sketch
     from core.polytope import Cancelled
 
 SHOWN_AFTER_MS: Final = 300
@@ -139,7 +137,7 @@ class Importer(QObject):
             Job(
                 path.name,
                 "Open",
-                lambda: read_sketch(path),
+                lambda: read(path),
                 lambda: PRESETS["Calm"],
                 use,
                 lambda error: self._files.refuse("Cannot open", path, error),
@@ -156,15 +154,11 @@ class Importer(QObject):
             if self.add_document(document, "Import", path.name):
                 self._settings.folder = path.absolute().parent
 
-        def decode() -> Sketch | Document:
-            is_foreign = path.suffix.lower() in SUFFIXES
-            return read_sketch(path) if is_foreign else open_document(path)
-
         self.take(
             Job(
                 path.name,
                 "Import",
-                decode,
+                lambda: read(path),
                 self._own_parameters,
                 use,
                 lambda error: self._dialogs.error("Cannot import", str(error)),
@@ -230,18 +224,20 @@ class Importer(QObject):
         if job is None:
             return
         self._hide_bar()
-        if isinstance(found, Sketch) and found.document is None:
-            self._show_dialog(job, found)
-            return
         if isinstance(found, NinepointError):
             job.refuse(found)
+        elif isinstance(found, Document):
+            job.use(found)
+        elif found.document is not None:
+            job.use(found.document)
         else:
-            document = found.document if isinstance(found, Sketch) else found
-            if document is not None:
-                job.use(document)
+            self._show_dialog(job, found)
+            return
         self._end()
 
     def _show_dialog(self, job: Job, sketch: Sketch) -> None:
+        from app.import_dialog import ImportDialog  # not needed for our own files
+
         dialog = ImportDialog(
             sketch,
             job.name,
@@ -285,13 +281,22 @@ class Importer(QObject):
             bar.deleteLater()
 
 
+def read(path: Path) -> Sketch | Document:
+    """Contents of a file; to be called in the background, where its readers are loaded, too."""
+    import core.formats.fitted  # noqa: F401  (what comes next needs it)
+    from core.formats import open_document
+    from core.formats.foreign import SUFFIXES, read_sketch
+
+    return read_sketch(path) if path.suffix.lower() in SUFFIXES else open_document(path)
+
+
 def _decoding(job: Job) -> Task:
     """Task that reads; what is wrong is its result."""
 
     def task(_cancelled: Cancelled, _send: Callable[[Any], None]) -> Any:
         try:
             found = job.decode()
-            if isinstance(found, Sketch):
+            if not isinstance(found, Document):
                 found.low  # noqa: B018  (found here, and kept, rather than in the window's thread)
         except NinepointError as error:
             return error

@@ -345,3 +345,13 @@ def test_a_window_without_a_screen_is_refused_in_a_sentence(folder):
     assert done.returncode != 0
     assert b"no screen" in done.stderr
     assert b"Traceback" not in done.stderr
+
+
+def test_a_drawing_of_another_program_is_left_to_the_window(folder, run, window):
+    Path("damaged.svg").write_text("<svg")
+    assert run("damaged.svg")[0] == 0
+    assert len(window) == 1
+    status, _, errors = run("missing.dxf")
+    assert status == 2
+    assert errors == "ninepoint: missing.dxf: there is no such file.\n"
+    assert len(window) == 1

@@ -19,6 +19,12 @@ def data(qtbot):
     return DrawingData(letter_f().with_parameters(PRESETS["Tight"]))
 
 
+@pytest.fixture(autouse=True)
+def empty_clipboard(qtbot):
+    yield
+    QGuiApplication.clipboard().clear()  # Qt must not ask for forms when Python is gone
+
+
 def same(one, other):
     return one.parameters == other.parameters and all(
         (a.points == b.points).all() and (a.closed, a.name) == (b.closed, b.name)

@@ -15,7 +15,7 @@ from app.session import Session
 from app.settings import Settings
 from core.document import Document
 from core.family import PRESETS
-from core.formats import PROFILES, export
+from core.formats import PROFILES, export, open_document
 from core.formats.foreign import read_sketch
 from drawings import letter_f
 
@@ -237,7 +237,7 @@ def test_changes_made_while_a_file_is_read_are_asked_about(
         assert gate.wait(10)
         return read_sketch(path)
 
-    monkeypatch.setattr(importing, "read_sketch", read)
+    monkeypatch.setattr(importing, "read", read)
     importer.files.open_path(square)
     session = importer.session
     session.edit(session.document.with_parameters(PRESETS["Tight"]), "Preset Tight")
@@ -258,7 +258,7 @@ def test_a_long_reading_shows_a_bar_and_can_be_cancelled(qtbot, importer, square
         assert gate.wait(10)
         return read_sketch(path)
 
-    monkeypatch.setattr(importing, "read_sketch", read)
+    monkeypatch.setattr(importing, "read", read)
     before = importer.session.document
     importer.add([square, square])
     qtbot.waitUntil(lambda: importer.bar is not None and importer.bar.isVisible())
@@ -275,7 +275,9 @@ def test_a_fault_of_the_program_does_not_stop_what_comes_next(
     qtbot, importer, square, tmp_path, monkeypatch
 ):
     monkeypatch.setattr("sys.excepthook", lambda *_: None)
-    monkeypatch.setattr(importing, "read_sketch", lambda path: 1 // 0)
+    monkeypatch.setattr(
+        importing, "read", lambda path: 1 // 0 if path == square else open_document(path)
+    )
     points = tmp_path / "points.csv"
     points.write_text("0,0\n1,1\n")
     importer.add([square, points])
@@ -284,7 +286,7 @@ def test_a_fault_of_the_program_does_not_stop_what_comes_next(
 
 
 def test_a_drawing_without_points_is_refused(qtbot, importer, answers, tmp_path, monkeypatch):
-    monkeypatch.setattr(importing, "open_document", lambda path: Document())
+    monkeypatch.setattr(importing, "read", lambda path: Document())
     importer.add([tmp_path / "empty.ninepoint"])
     done(qtbot, importer)
     assert answers.shown == [("Cannot import", "empty.ninepoint: There are no points in it.")]
