@@ -16,7 +16,11 @@ from ezdxf.path import make_path
 from scipy.spatial import cKDTree
 
 PX_PER_MM = 96 / 25.4
-NEAR = 2
+NEAR = 4
+"""Pieces that are looked at first for the nearest."""
+
+PIECES = 4096
+"""Pieces of a polygon, at least."""
 
 
 def seen_by_ezdxf(data, fine):
@@ -95,29 +99,44 @@ def chord_error(line):
     return float(np.hypot(*np.diff(line, n=2, axis=0).T).max(initial=0.0)) / 4
 
 
-def farthest(points, line):
-    """Largest distance of points from a polygon: from the segments at its nearest vertices."""
-    if len(line) == 1:
-        return float(np.hypot(*(points - line).T).max())
-    line = evened(line)
-    nearest = cKDTree(line).query(points, NEAR)[1].reshape(len(points), NEAR)
+def farthest(points, lines):
+    """Largest distance of points from a polygon, or from several.
+
+    The nearest of short pieces is among those with the nearest middles: more and more of these are
+    looked at, until those left are too far away, whatever their pieces do.
+    """
+    lines = lines if isinstance(lines, list) else [lines]
+    pieces = [pieces_of(line) for line in lines]
+    starts = np.concatenate([start for start, _ in pieces])
+    ways = np.concatenate([way for _, way in pieces])
+    tree = cKDTree(starts + ways / 2)
+    half = np.hypot(*ways.T).max() / 2
     best = np.full(len(points), np.inf)
-    for k in range(NEAR):
-        for start in (nearest[:, k] - 1, nearest[:, k]):
-            start = np.clip(start, 0, len(line) - 2)
-            way, off = line[start + 1] - line[start], points - line[start]
-            square = np.maximum((way**2).sum(axis=1), 1e-300)
-            share = np.clip((off * way).sum(axis=1) / square, 0, 1)
-            best = np.minimum(best, np.hypot(*(off - share[:, None] * way).T))
+    waiting, near = np.arange(len(points)), NEAR
+    while len(waiting):
+        near = min(near, len(starts))
+        there = points[waiting]
+        away, nearest = tree.query(there, near)
+        away, nearest = away.reshape(len(there), near), nearest.reshape(len(there), near)
+        off, way = there[:, None] - starts[nearest], ways[nearest]
+        square = np.maximum((way**2).sum(axis=2), 1e-300)
+        share = np.clip((off * way).sum(axis=2) / square, 0, 1)
+        gaps = off - share[:, :, None] * way
+        best[waiting] = np.hypot(gaps[:, :, 0], gaps[:, :, 1]).min(axis=1)
+        if near == len(starts):
+            break
+        waiting = waiting[away[:, -1] - half < best[waiting]]
+        near *= 4
     return float(best.max())
 
 
-def evened(line):
-    """The line without long segments, so that the nearest segment has a vertex near."""
+def pieces_of(line):
+    """Starts and ways of the pieces of a polygon, none of them long; a point is a piece."""
+    if len(line) == 1:
+        return line, np.zeros((1, 2))
     ways = np.diff(line, axis=0)
     lengths = np.hypot(*ways.T)
-    parts = np.maximum(np.ceil(lengths / max(lengths.sum(), 1e-300) * 4096), 1).astype(int)
-    piece = np.repeat(np.arange(len(parts)), parts)
-    number = np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)
-    inner = line[piece] + (number / parts[piece])[:, None] * ways[piece]
-    return np.concatenate([inner, line[-1:]])
+    parts = np.maximum(np.ceil(lengths / max(lengths.sum(), 1e-300) * PIECES), 1).astype(int)
+    number = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    steps = np.repeat(ways / parts[:, None], parts, axis=0)
+    return np.repeat(line[:-1], parts, axis=0) + number[:, None] * steps, steps
