@@ -87,12 +87,14 @@ def test_processes_are_as_many_as_are_worth_it(monkeypatch):
     assert suitable(100) == 1
 
 
-def test_ctrl_c_stops_all_and_leaves_nothing_half_written(job, tmp_path):
+@pytest.fixture
+def running(tmp_path):
+    """An export of many files that has written the first of them."""
     for k in range(400):
         (tmp_path / f"{k:03}.csv").write_text("0,0\n30,0\n30,20\n0,20\n0,0\n")
     (tmp_path / "out").mkdir()
     words = ["*.csv", "--profile", "laser", "--tolerance", "1e-5", "--out", "out", "--jobs", "2"]
-    running = subprocess.Popen(
+    process = subprocess.Popen(
         [sys.executable, "-m", "app", "export", *words],
         cwd=tmp_path,
         env=os.environ | {"PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"},
@@ -101,16 +103,27 @@ def test_ctrl_c_stops_all_and_leaves_nothing_half_written(job, tmp_path):
         start_new_session=True,
         text=True,
     )
-    try:
-        running.stdout.readline()  # the first file is written
-        os.killpg(running.pid, signal.SIGINT)  # as a terminal does: all processes get it
-        # It reads until all processes have ended, as all hold these streams.
-        output, errors = running.communicate(timeout=WAIT_S)
-    finally:
-        running.kill()
+    process.stdout.readline()
+    yield process
+    process.kill()
+    process.wait()
+
+
+def test_ctrl_c_stops_all_and_leaves_nothing_half_written(running, tmp_path):
+    os.killpg(running.pid, signal.SIGINT)  # as a terminal does: all processes get it
+    # This reads until all processes have ended, as all of them hold the streams.
+    output, errors = running.communicate(timeout=WAIT_S)
     assert running.returncode == 130
     assert errors.strip() == "ninepoint: stopped."
     assert "400 files" not in output
-    done = list((tmp_path / "out").iterdir())
-    assert 0 < len(done) < 400
-    assert all(path.read_bytes().endswith(b"  0\nEOF\n") for path in done)
+    written = list((tmp_path / "out").iterdir())
+    assert 0 < len(written) < 400
+    assert all(path.read_bytes().endswith(b"  0\nEOF\n") for path in written)
+
+
+def test_no_process_is_left_behind_by_one_that_is_killed(running, tmp_path):
+    running.kill()
+    running.communicate(timeout=WAIT_S)
+    written = list((tmp_path / "out").iterdir())
+    assert 0 < len(written) < 400
+    assert all(path.read_bytes().endswith(b"  0\nEOF\n") for path in written)

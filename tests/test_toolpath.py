@@ -57,11 +57,13 @@ def test_the_kerf_is_in_millimetres_whatever_the_unit():
     assert cut(PLATE, kerf=2.0, unit="in").size_mm == pytest.approx(metric.size_mm, abs=0.02)
 
 
-def test_tables_of_points_know_no_kerf(tmp_path):
+def test_tables_of_points_have_no_kerf_and_say_so(tmp_path):
     profile = msgspec.structs.replace(named("points"), kerf_mm=1.0)
     with_kerf = export(letter_f(), tmp_path / "a.csv", profile)
     plain = export(letter_f(), tmp_path / "b.csv", named("points"))
     assert (with_kerf.width_mm, with_kerf.entities) == (plain.width_mm, plain.entities)
+    assert "Tables of points have no kerf" in " ".join(with_kerf.notes)
+    assert "kerf" not in " ".join(plain.notes)
 
 
 def test_an_open_curve_is_refused_in_a_sentence():

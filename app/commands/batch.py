@@ -2,7 +2,7 @@
 
 Processes are started afresh ("spawn"), the same way on every system. They do not hear Ctrl+C, which
 the terminal sends to all: the first process does, and ends the others; they leave what they write
-as it was.
+as it was. They end too when the first process is gone.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -182,9 +183,17 @@ def _pool(processes: int) -> Iterator[ProcessPoolExecutor]:
 
 
 def _prepare() -> None:
-    """Make a process one that the first process alone stops."""
+    """Make a process one that the first process alone stops, and that ends with it."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, _stop)
+    threading.Thread(target=_end_with_first, daemon=True).start()
+
+
+def _end_with_first() -> None:
+    first = multiprocessing.parent_process()
+    if first is not None:
+        first.join()
+        os.kill(os.getpid(), signal.SIGTERM)
 
 
 def _stop(*_: object) -> NoReturn:

@@ -86,6 +86,8 @@ class Tables:
         if not curves:
             raise NinepointError("There is nothing to export: the drawing has no points.")
         notes: list[str] = []
+        if profile.kerf_mm:
+            notes.append("Tables of points have no kerf: these are points of the curves.")
         deviation = 0.0
         if profile.entity == "control points":
             columns = CONTROL_COLUMNS
