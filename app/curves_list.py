@@ -45,4 +45,5 @@ class CurvesList(QListWidget):
         if data is not None:
             drag = QDrag(self)
             drag.setMimeData(data)
+            drag.setPixmap(self.viewport().grab(self.visualRect(self.selectedIndexes()[0])))
             drag.exec(COPY)

@@ -40,6 +40,7 @@ def test_a_drag_offers_the_curve_as_it_is_copied(curves, session, monkeypatch):
     data = drag.mimeData()
     assert isinstance(data, DrawingData)
     assert data.document.curves == (session.document.curves[1],)
+    assert drag.pixmap().height() > 10  # the row of the list hangs on the mouse
     assert action == Qt.DropAction.CopyAction
     assert len(session.document.curves) == 3
 
