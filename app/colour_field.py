@@ -9,6 +9,7 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QColorDialog, QHBoxLayout, QLineEdit, QToolButton, QWidget
 
+from app.guard import guarded
 from app.style import color, palette_of
 
 SWATCH_PX: Final = 16
@@ -65,11 +66,13 @@ class ColourField(QWidget):
         self.line.setText(colour)
         self.button.setIcon(QIcon(self._swatch()))
 
+    @guarded
     def setAccessibleName(self, name: str) -> None:
         super().setAccessibleName(name)
         self.line.setAccessibleName(name)
         self.button.setAccessibleName(f"Choose {name.lower()}")
 
+    @guarded
     def setToolTip(self, tip: str) -> None:
         super().setToolTip(tip)
         self.line.setToolTip(tip)

@@ -175,8 +175,9 @@ def _put_curves(put: _Put, setting: Setting, scene: Scene, selection: Selection)
     if setting.with_polygon:
         for index, drawn in enumerate(curves):
             put((Layer.POINTS, index), _points, drawn, index != active)
-        for index, drawn in enumerate(curves):
-            put((Layer.SELECTED, index), _selected, drawn, selection.points.of_curve(index))
+        for index, chosen in selection.points.by_curve.items():
+            if index < len(curves):
+                put((Layer.SELECTED, index), _selected, curves[index], chosen)
 
 
 def _ribbon(setting: Setting, outline: NDArray[np.float64]) -> Ink:

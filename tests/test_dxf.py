@@ -15,8 +15,8 @@ from core.errors import NinepointError
 from core.family import PRESETS
 from core.formats import dxf
 from core.formats.contours import Contours
-from core.profiles import Profile, named
 from core.formats.tables import Tables
+from core.profiles import Profile, named
 from drawings import documents, letter_f
 from independent import (
     chord_error,

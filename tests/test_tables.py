@@ -13,8 +13,8 @@ from core.document import Curve, Document
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
 from core.formats import points, tables
-from core.profiles import Profile
 from core.formats.tables import CONTROL_COLUMNS, LIMIT_COLUMNS, Tables, cell, limit_rows
+from core.profiles import Profile
 from core.shape import curvatures, tangents
 from drawings import documents, letter_f
 from independent import farthest

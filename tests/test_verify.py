@@ -11,9 +11,9 @@ from core.errors import FileError
 from core.family import PRESETS
 from core.formats import dxf, svg, tables
 from core.formats.contours import Contours
-from core.profiles import PROFILES, named
 from core.formats.tables import Tables
 from core.formats.verify import verify
+from core.profiles import PROFILES, named
 from drawings import letter_f
 
 WRITTEN = [name for name, profile in PROFILES.items() if profile.format not in ("pdf", "png")]

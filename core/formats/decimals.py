@@ -14,8 +14,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-LARGEST: Final = 2**53
-"""Size that scaled numbers stay below: up to it floats tell whole numbers apart."""
+LARGEST: Final = 2**51
+"""Size that scaled numbers stay below. A decimal number as a float, times its power of ten, is off
+by two roundings, a share of 2^-52 together: up to here by less than a half."""
 
 _GROUP: Final = 4
 """Digits that are looked up together."""
