@@ -169,6 +169,22 @@ def test_many_circles_take_a_moment():
         assert [ring.sources for ring in found.rings] == [(k,) for k in range(400)]
 
 
+def test_what_a_hardly_fitting_tool_leaves_of_a_slot_is_dropped():
+    turn = np.linspace(0, np.pi, 200)
+    bend = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    slot = np.concatenate([30 * bend, 26 * bend[::-1]])  # 4 mm wide, as near as chords come
+    for kerf, kept in ((2.0, False), (-2.0, False), (-1.99, True)):
+        polygons = [slot, circle(40.0)] if kerf > 0 else [slot]
+        try:
+            found = offset(polygons, kerf, TOLERANCE)
+        except NinepointError:
+            assert not kept
+            continue
+        assert found.deviation <= TOLERANCE
+        assert any(0 in ring.sources for ring in found.rings) == kept
+        assert (0 in found.gone) != kept
+
+
 stars = st.builds(
     lambda radii, start: np.array(
         [

@@ -12,7 +12,8 @@ What is proven
 --------------
 Let C be exact curves, and the polygons within e of them, piece by piece: then the winding numbers
 differ only at points that are within e of both, so that ``A_C - B(e)`` lies in A, and A in
-``A_C + B(e)``. With d = e + (the tolerance of the joins) + (thinning) + (the grid), for k > 0
+``A_C + B(e)``. With d = e + (the tolerance of the joins) + (the larger one of thinning and the
+radius of slivers that are dropped) + (the grid), for k > 0
 
     ``A_C + B(k - d)``  lies in the result, and the result in  ``A_C + B(k + d)``,
 
@@ -29,9 +30,6 @@ the distances of the finished file from the exact curves on its own.
 from __future__ import annotations
 
 import itertools
-import math
-import shlex
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
@@ -40,12 +38,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.errors import NinepointError
-
-_GRID: Final = 2.0**-10
-"""Unit of the grid, as a share of the tolerance, at most."""
-
-_LARGEST: Final = 2.0**50
-"""Largest coordinate on the grid: Clipper2 computes differences of them in floats."""
+from core.formats.clipping import Grid, Node, doubled_area, engine_of, grown, length, library, tree
 
 _GRID_UNITS: Final = 8
 """Units of the grid that two rounds of rounding, with the crossings found, move a contour by."""
@@ -130,22 +123,25 @@ def offset(polygons: Sequence[NDArray[np.float64]], kerf: float, tolerance: floa
         If pyclipr is not installed, polygons run along each other, nothing is left, or the
         coordinates are too large for the tolerance.
     """
-    clipper = _library()
-    grid = _Grid.of(polygons, kerf, tolerance)
+    clipper = library()
+    grid = Grid.of(polygons, kerf, tolerance)
     numbered = [grid.put(polygon, index) for index, polygon in enumerate(polygons)]
-    area = _tree(_engine(clipper, numbered).execute2(clipper.ClipType.Union))
+    area = tree(engine_of(clipper, numbered).execute2(clipper.ClipType.Union))
     _check_length(numbered, area, tolerance, grid.scale)
     reach = abs(kerf) * grid.scale
     joins = _JOIN_SHARE * tolerance
     spare = tolerance - joins - _GRID_UNITS / grid.scale
-    thinned = 0.0
+    moved = 0.0
     rings: list[Ring] = []
     places: list[NDArray[np.float64]] = []
     for region in _regions(area, kerf > 0):
-        found = _offset(clipper, region.paths, region.sign * reach, joins * grid.scale)
+        whole = grown(clipper, region.paths, region.sign * reach, joins * grid.scale)
+        found = _without_slivers(clipper, whole, region.sign, spare * grid.scale)
+        if sum(map(len, found)) < sum(map(len, whole)):
+            moved = spare
         for rows in itertools.chain.from_iterable(found):
-            points, moved = _thinned(grid.taken(rows), spare)
-            thinned = max(thinned, moved)
+            points, thinned = _thinned(grid.taken(rows), spare)
+            moved = max(moved, thinned)
             rings.append(_followed(points, _sources(rows), polygons))
         parts = _rounded(clipper, region, found, reach, tolerance * grid.scale)
         places += [grid.taken(part)[:1] for part in parts]
@@ -158,72 +154,11 @@ def offset(polygons: Sequence[NDArray[np.float64]], kerf: float, tolerance: floa
     seen = {source for ring in rings for source in ring.sources}
     return Offset(
         tuple(rings),
-        joins + thinned + _GRID_UNITS / grid.scale,
+        joins + moved + _GRID_UNITS / grid.scale,
         tuple(index for index in range(len(polygons)) if index not in seen),
         _crossing(area),
         np.concatenate([np.zeros((0, 2)), *places]),
     )
-
-
-def _library() -> Any:
-    """The module pyclipr, which ships no type information that mypy could check."""
-    try:
-        import pyclipr
-    except ImportError as error:
-        command = f"{shlex.quote(sys.executable)} -m pip install pyclipr"
-        raise NinepointError(
-            f"A kerf needs pyclipr, which is not installed. To install it, type: {command}"
-        ) from error
-    return pyclipr
-
-
-@dataclass(frozen=True, eq=False)
-class _Grid:
-    """Whole numbers that stand for places: ``(place - origin) scale``, scale a power of two."""
-
-    origin: NDArray[np.float64]
-    scale: float
-
-    @classmethod
-    def of(
-        cls, polygons: Sequence[NDArray[np.float64]], kerf: float, tolerance: float
-    ) -> _Grid:
-        """Grid fine enough for the tolerance."""
-        low = np.min([polygon.min(axis=0) for polygon in polygons], axis=0)
-        high = np.max([polygon.max(axis=0) for polygon in polygons], axis=0)
-        scale = 2.0 ** math.ceil(-math.log2(_GRID * tolerance))
-        # Whole numbers, so that shifting by them rounds as little as can be.
-        origin = np.rint((low + high) / 2)
-        reach = float(np.abs([low - origin, high - origin]).max()) + 2 * abs(kerf)
-        if reach * scale > _LARGEST:
-            raise NinepointError(
-                f"A drawing of {2 * reach:g} mm cannot be offset within {tolerance:g} mm;"
-                " choose a larger tolerance."
-            )
-        return cls(origin, scale)
-
-    def put(self, points: NDArray[np.float64], index: int) -> NDArray[np.float64]:
-        """Rows x, y on the grid, and the number of the polygon, from 1: 0 is Clipper's "none"."""
-        rows = np.full((len(points), 3), float(index + 1))
-        rows[:, :2] = np.rint((points - self.origin) * self.scale)
-        return rows
-
-    def taken(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Places of rows."""
-        places: NDArray[np.float64] = rows[:, :2] / self.scale + self.origin
-        return places
-
-
-@dataclass(frozen=True, eq=False)
-class _Node:
-    """An edge of an area, rows as of `_Grid.put`, and the edges directly inside it."""
-
-    rows: NDArray[np.float64]
-    inner: tuple[_Node, ...]
-
-    def turned(self) -> NDArray[np.float64]:
-        """The edge the other way round."""
-        return self.rows[::-1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,7 +177,7 @@ class _Region:
     sign: int
 
 
-def _regions(area: tuple[_Node, ...], outwards: bool) -> list[_Region]:
+def _regions(area: tuple[Node, ...], outwards: bool) -> list[_Region]:
     """Regions by which an area grows, or shrinks.
 
     What shrinks keeps to itself: so to grow, the parts of the complement are shrunk. Each by
@@ -259,28 +194,33 @@ def _regions(area: tuple[_Node, ...], outwards: bool) -> list[_Region]:
     return found
 
 
-def _engine(clipper: Any, paths: list[NDArray[np.float64]]) -> Any:
-    engine = clipper.Clipper()
-    engine.scaleFactor = 1.0
-    engine.addPaths(paths, clipper.PathType.Subject)
-    return engine
+def _without_slivers(
+    clipper: Any, found: list[list[NDArray[np.float64]]], sign: int, spare: float
+) -> list[list[NDArray[np.float64]]]:
+    """Edges but for those of parts in which no circle of the radius ``spare`` fits.
+
+    Where the tool hardly fits, what is left of a slot hangs on the roundings of its edges.
+    """
+    if sign < 0:
+        return [paths for paths in found if not _is_sliver(clipper, paths, spare)]
+    return [
+        [outer, *(hole for hole in holes if not _is_sliver(clipper, [hole[::-1]], spare))]
+        for outer, *holes in found
+    ]
 
 
-def _tree(root: Any) -> tuple[_Node, ...]:
-    """Edges in the order of a tree of Clipper, inner ones first made."""
-    order = [root]
-    for node in order:
-        order += node.children
-    made: dict[int, _Node] = {}
-    for node in reversed(order[1:]):
-        inner = tuple(made.pop(id(child)) for child in node.children)
-        made[id(node)] = _Node(np.column_stack([node.polygon, node.attributes]), inner)
-    return tuple(made[id(child)] for child in root.children)
+def _is_sliver(clipper: Any, paths: list[NDArray[np.float64]], spare: float) -> bool:
+    # No point of a part is further from its edge than its largest circle's radius; so that is no
+    # less than area by perimeter.
+    area = sum(map(doubled_area, paths)) / 2
+    if area > spare * sum(map(length, paths)):
+        return False
+    return not grown(clipper, paths, -spare, spare)
 
 
 def _check_length(
     paths: list[NDArray[np.float64]],
-    area: tuple[_Node, ...],
+    area: tuple[Node, ...],
     tolerance: float,
     scale: float,
 ) -> None:
@@ -293,36 +233,12 @@ def _check_length(
     for node in waiting:
         waiting += node.inner
         edges.append(node.rows)
-    drawn, left = (sum(map(_length, rows)) / scale for rows in (paths, edges))
+    drawn, left = (sum(map(length, rows)) / scale for rows in (paths, edges))
     if drawn - left > max(_COINCIDENT * tolerance, _ROUNDED_LENGTH * drawn):
         raise NinepointError(
             f"Curves lie on each other for {(drawn - left) / 2:.4g} mm, so inside and outside"
             " cannot be told apart. Delete one of them, or set the kerf to 0."
         )
-
-
-def _length(rows: NDArray[np.float64]) -> float:
-    way = np.roll(rows[:, :2], -1, axis=0) - rows[:, :2]
-    return float(np.hypot(*way.T).sum())
-
-
-def _offset(
-    clipper: Any, paths: list[NDArray[np.float64]], reach: float, joins: float
-) -> list[list[NDArray[np.float64]]]:
-    """Edges of an area grown by a reach, or shrunk, those of each connected part together.
-
-    Chords of round joins leave these by ``joins`` at most.
-    """
-    engine = clipper.ClipperOffset()
-    engine.scaleFactor = 1.0
-    engine.arcTolerance = joins
-    engine.addPaths(paths, clipper.JoinType.Round, clipper.EndType.Polygon)
-    found = []
-    waiting = [*_tree(engine.execute2(reach))]
-    for node in waiting:
-        found.append([node.rows, *[hole.rows for hole in node.inner]])
-        waiting += [island for hole in node.inner for island in hole.inner]
-    return found
 
 
 def _sources(rows: NDArray[np.float64]) -> tuple[int, ...]:
@@ -333,7 +249,7 @@ def _sources(rows: NDArray[np.float64]) -> tuple[int, ...]:
     return tuple((order[counts[order] > 0] - 1).tolist())
 
 
-def _crossing(area: tuple[_Node, ...]) -> tuple[tuple[int, int], ...]:
+def _crossing(area: tuple[Node, ...]) -> tuple[tuple[int, int], ...]:
     """Pairs of polygons of which parts are joined into one edge."""
     pairs = set()
     waiting = [*area]
@@ -359,27 +275,21 @@ def _rounded(
     A tool that keeps to the shrunk region covers this grown by its radius.
     """
     joins = _JOIN_SHARE * tolerance
-    plain = _offset(clipper, region.paths, region.sign * _PLAIN * tolerance, joins)
+    plain = grown(clipper, region.paths, region.sign * _PLAIN * tolerance, joins)
     if region.sign < 0:
         paths = list(itertools.chain.from_iterable(found))
-        covered = _offset(clipper, paths, reach, joins)
+        covered = grown(clipper, paths, reach, joins)
         more, less = plain, covered
     else:
-        more = [part for paths in found for part in _offset(clipper, paths, -reach, joins)]
+        more = [part for paths in found for part in grown(clipper, paths, -reach, joins)]
         less = plain
     if not more:
         return []
-    engine = _engine(clipper, list(itertools.chain.from_iterable(more)))
+    engine = engine_of(clipper, list(itertools.chain.from_iterable(more)))
     if less:
         engine.addPaths(list(itertools.chain.from_iterable(less)), clipper.PathType.Clip)
-    parts = _tree(engine.execute2(clipper.ClipType.Difference))
+    parts = tree(engine.execute2(clipper.ClipType.Difference))
     return [part.rows for part in parts]
-
-
-def _doubled_area(points: NDArray[np.float64]) -> float:
-    """Twice the area, positive if it lies to the left."""
-    x, y = (points[:, :2] - points[0, :2]).T
-    return float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
 
 
 def _thinned(
@@ -414,7 +324,7 @@ def _followed(
 ) -> Ring:
     """Ring that runs as its polygon does, from near the start of that."""
     polygon = polygons[sources[0]]
-    if (_doubled_area(points) > 0) != (_doubled_area(polygon) > 0):
+    if (doubled_area(points) > 0) != (doubled_area(polygon) > 0):
         points = points[::-1]
     first = int(np.hypot(*(points - polygon[0]).T).argmin())
     return Ring(np.roll(points, -first, axis=0), sources)
