@@ -133,8 +133,11 @@ HEAD = ("profile", "program", "box off by, mm", "contours, closed", "seen as", "
 
 NOTES = """
 Boxes are as the programs state or draw them; renderers are as exact as their pixels, of 0.02 to
-0.04 mm, those of the PNG being 0.085 mm. What LibreCAD and GDAL are off by in splines are the 8
-chords that they draw for each piece. LibreCAD is measured on what it prints.
+0.04 mm, those of the PNG being 0.085 mm. In splines LibreCAD and GDAL draw some 8 chords for each
+piece, which is what they are off by. GDAL was told to draw arcs in steps of 0.1 degrees: with its
+default of 4 degrees it is up to 0.18 mm off. LibreCAD is measured on a centred print of a copy that
+names a larger sheet, so its box tells sizes, not places. resvg paints our page on a larger one, as
+it cuts pages to whole pixels of 96 dpi.
 
 \\* OpenSCAD takes arcs for straight lines, reads neither splines nor R12, and fills what lies
 inside another contour of an SVG; a profile of one's own, a DXF R2000 polyline, is right. It knows
