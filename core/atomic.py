@@ -12,6 +12,7 @@ import contextlib
 import errno
 import os
 import stat
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
@@ -120,17 +121,18 @@ def _replace(path: Path, target: Path, data: bytes) -> None:
     _remove_strays(folder)
     temporary, file = _new_temporary(folder)
     try:
-        try:
-            if mode is not None:
-                temporary.chmod(mode)
-            _write_all(file, data)
-            os.fsync(file)
-        finally:
-            os.close(file)
-        with temporary.open("rb") as written:
-            if written.read(len(data) + 1) != data:
-                raise OSError(errno.EIO, "read back differently")
-        temporary.replace(target)
+        with _still_locked(file):
+            try:
+                if mode is not None:
+                    temporary.chmod(mode)
+                _write_all(file, data)
+                os.fsync(file)
+            finally:
+                os.close(file)
+            with temporary.open("rb") as written:
+                if written.read(len(data) + 1) != data:
+                    raise OSError(errno.EIO, "read back differently")
+            temporary.replace(target)
     except BaseException:
         with contextlib.suppress(OSError):
             temporary.unlink()
@@ -188,6 +190,29 @@ def _locked(file: int) -> bool:
     except OSError:
         return True
     return True
+
+
+@contextlib.contextmanager
+def _still_locked(file: int) -> Iterator[None]:
+    """Keep the lock of a file beyond its being closed.
+
+    Closing tells of faults, so it comes before the renaming; but from then on until the renaming,
+    another process would take the file for a stray. Where there are no locks nothing can be held:
+    a file that is open cannot be renamed there.
+    """
+    if fcntl is None:
+        yield
+        return
+    try:
+        held = os.dup(file)
+    except OSError:
+        os.close(file)
+        raise
+    try:
+        yield
+    finally:
+        with contextlib.suppress(OSError):  # the first one told what there was to tell
+            os.close(held)
 
 
 def _remove_stray(path: Path) -> None:

@@ -126,6 +126,7 @@ FAULTS = {
     "the temporary cannot be made": (os, "open", errno.EACCES, "permission to write"),
     "the disk is read-only": (os, "open", errno.EROFS, "read-only"),
     "too many files": (os, "open", errno.EMFILE, "too many files"),
+    "too many files to hold the lock": (os, "dup", errno.EMFILE, "too many files"),
     "the mode cannot be set": (Path, "chmod", errno.EPERM, "permission to write"),
     "the disk is full": (os, "write", errno.ENOSPC, "the disk is full"),
     "the quota is used up": (os, "write", errno.EDQUOT, "your share"),
@@ -282,3 +283,18 @@ def test_a_stray_is_locked_until_it_is_gone(tmp_path, monkeypatch):
     atomic.write(tmp_path / "new.svg", NEW)
     assert locked == [True]
     assert names(tmp_path) == ["new.svg"]
+
+
+def test_no_neighbour_takes_a_finished_temporary_for_a_stray(old_file, monkeypatch):
+    """Several processes write into one folder, and each removes the strays of dead ones."""
+    real = Path.replace
+
+    def overtaken(path, target):
+        if target.name == old_file.name:
+            atomic.write(old_file.parent / "neighbour.svg", OLD)
+        return real(path, target)
+
+    monkeypatch.setattr(Path, "replace", overtaken)
+    atomic.write(old_file, NEW)
+    assert old_file.read_bytes() == NEW
+    assert names(old_file.parent) == sorted([old_file.name, "neighbour.svg"])
