@@ -112,6 +112,19 @@ class Drawn:
         """The parts of the control polygon that are seen, as they are stroked."""
         return line_of(self.polygon, self.period, self.strides[1])
 
+    @cached_property
+    def box_px(self) -> NDArray[np.float64]:
+        """Corners of what is drawn of it, shape (2, 2); empty, from inf to -inf, if nothing is."""
+        parts = [self.outline.vertices, self.polygon.vertices]
+        if self.curve.count == 1:
+            parts.append(self.points_px)
+        drawn = [part for part in parts if len(part)]
+        if not drawn:
+            return np.array([[np.inf, np.inf], [-np.inf, -np.inf]])
+        # Vertices lie near what they stand for: to a quarter of a device pixel.
+        low = np.min([part.min(axis=0) for part in drawn], axis=0) - 1.0
+        return np.stack([low, np.max([part.max(axis=0) for part in drawn], axis=0) + 1.0])
+
     @property
     def limit(self) -> LiveCurve | None:
         """The limit curve, before `Figure.placed`; None when the scheme has none.

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
 from operator import is_
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -103,6 +103,7 @@ class Picture:
     def __init__(self) -> None:
         self.things: dict[Key, Ink] = {}
         self._sources: dict[Key, tuple[object, ...]] = {}
+        self._curves: list[_CurveInks] = []
         self._setting: Setting | None = None
 
     def update(
@@ -126,7 +127,7 @@ class Picture:
             Words near the lower and the upper edge, or "".
         """
         if setting != self._setting:
-            self._setting, self._sources = setting, {}
+            self._setting, self._sources, self._curves = setting, {}, []
         known, sources = self.things, self._sources
         self.things, self._sources = {}, {}
 
@@ -143,12 +144,46 @@ class Picture:
             put((Layer.RIBBON, place), _ribbon, outline)
         for index, ghost in scene.ghosts.items():
             put((Layer.GHOST, index), _ghost, ghost)
-        _put_curves(put, setting, scene, selection)
+        self._put_curves(put, setting, scene, selection)
         for layer, ink in _overlay(setting.palette, scene, overlay):
             self.things[layer, 0] = ink
         for layer, text in ((Layer.HINT, hint), (Layer.NOTICE, notice)):
             if text:
                 put((layer, 0), _words, layer, text)
+
+
+    def _put_curves(
+        self, put: _Put, setting: Setting, scene: Scene, selection: Selection
+    ) -> None:
+        """Put polygons, curves and points, layer by layer."""
+        curves, active, preview = scene.curves, selection.curve, scene.preview
+        # Of thousands of curves most stay: each is looked at once, not once for each layer.
+        kept = [*self._curves[: len(curves)], *[None] * (len(curves) - len(self._curves))]
+        self._curves = [
+            held
+            if held is not None and held.drawn is drawn and held.is_active == (index == active)
+            else _curve_inks(setting, drawn, index == active, held)
+            for index, (drawn, held) in enumerate(zip(curves, kept, strict=True))
+        ]
+        self._take(Layer.POLYGON, [held.polygon for held in self._curves])
+        calm = [None if held.is_active else held.outline for held in self._curves]
+        self._take(Layer.CALM, calm)
+        if active < len(curves) and (ink := self._curves[active].outline) is not None:
+            self.things[Layer.ACTIVE, active] = ink
+        if preview is not None:
+            put((Layer.PREVIEW_POLYGON, 0), _polygon, preview)
+            put((Layer.PREVIEW, 0), _outline, preview, False)
+            put((Layer.PREVIEW_POINTS, 0), _points, preview, False)
+        self._take(Layer.POINTS, [held.points for held in self._curves])
+        if setting.with_polygon:
+            for index, chosen in selection.points.by_curve.items():
+                if index < len(curves):
+                    put((Layer.SELECTED, index), _selected, curves[index], chosen)
+
+    def _take(self, layer: Layer, inks: list[Ink | None]) -> None:
+        self.things.update(
+            ((layer, index), ink) for index, ink in enumerate(inks) if ink is not None
+        )
 
 
 _Make = Callable[..., Ink | None]
@@ -157,27 +192,27 @@ _Make = Callable[..., Ink | None]
 _Put = Callable[..., None]
 
 
-def _put_curves(put: _Put, setting: Setting, scene: Scene, selection: Selection) -> None:
-    """Put polygons, curves and points, layer by layer."""
-    curves, active, preview = scene.curves, selection.curve, scene.preview
+class _CurveInks(NamedTuple):
+    """Things that are painted of a curve, and what they were made from."""
+
+    drawn: Drawn
+    is_active: bool
+    polygon: Ink | None
+    outline: Ink | None
+    points: Ink | None
+
+
+def _curve_inks(
+    setting: Setting, drawn: Drawn, is_active: bool, before: _CurveInks | None
+) -> _CurveInks:
+    """Make the things of a curve; a polygon looks alike whether it is active or not."""
+    polygon = points = None
     if setting.with_polygon:
-        for index, drawn in enumerate(curves):
-            put((Layer.POLYGON, index), _polygon, drawn)
-    for index, drawn in enumerate(curves):
-        if index != active:
-            put((Layer.CALM, index), _outline, drawn, True)
-    if active < len(curves):
-        put((Layer.ACTIVE, active), _outline, curves[active], False)
-    if preview is not None:
-        put((Layer.PREVIEW_POLYGON, 0), _polygon, preview)
-        put((Layer.PREVIEW, 0), _outline, preview, False)
-        put((Layer.PREVIEW_POINTS, 0), _points, preview, False)
-    if setting.with_polygon:
-        for index, drawn in enumerate(curves):
-            put((Layer.POINTS, index), _points, drawn, index != active)
-        for index, chosen in selection.points.by_curve.items():
-            if index < len(curves):
-                put((Layer.SELECTED, index), _selected, curves[index], chosen)
+        is_kept = before is not None and before.drawn is drawn
+        polygon = before.polygon if before and is_kept else _polygon(setting, drawn)
+        points = _points(setting, drawn, not is_active)
+    outline = _outline(setting, drawn, not is_active)
+    return _CurveInks(drawn, is_active, polygon, outline, points)
 
 
 def _ribbon(setting: Setting, outline: NDArray[np.float64]) -> Ink:

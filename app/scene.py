@@ -16,7 +16,14 @@ from numpy.typing import NDArray
 from app.camera import Camera
 from app.drawn import Drawn, traced
 from app.figure import COMPARED, Figure, akin, differing
-from app.handles import CurveHit, EdgeHit, PointHit, nearest_edge, nearest_point
+from app.handles import (
+    CurveHit,
+    EdgeHit,
+    PointHit,
+    nearest_edge,
+    nearest_on_curve,
+    nearest_point,
+)
 from app.line import Line, line_of
 from app.point_set import PointSet
 from app.ribbons import Influence, ribbons
@@ -95,6 +102,8 @@ class Scene:
         self._camera = Camera()
         self._ratio = 1.0
         self._moved = False
+        self._boxes_px: NDArray[np.float64] | None = None
+        self._before: tuple[Drawn, ...] = ()
         self._kept: dict[tuple[int, int], Drawn] = {}
         self._used: dict[tuple[int, int], Drawn] = {}
         self._ghosts_kept: dict[int, tuple[Drawn, bytes, Line]] = {}
@@ -122,9 +131,9 @@ class Scene:
         """
         self._moved = (camera, ratio) != (self._camera, self._ratio)
         self._camera, self._ratio = camera, ratio
-        self._used = {}
+        self._used, self._boxes_px = {}, None
         parameters = document.parameters
-        before = self.curves
+        self._before = before = self.curves
         self.curves = tuple(
             self._drawn(curve, parameters, before[index] if index < len(before) else None)
             for index, curve in enumerate(document.curves)
@@ -161,29 +170,59 @@ class Scene:
     def _nearest_point(
         self, pos_px: NDArray[np.float64], radius_px: float, preferred: int
     ) -> PointHit | None:
+        about, curves, preferred = self._near(pos_px, radius_px, preferred)
         near = [
-            drawn.within(pos_px - radius_px, pos_px + radius_px, MOST_NEAR)
-            for drawn in self.curves
+            drawn.within(pos_px - radius_px, pos_px + radius_px, MOST_NEAR) for drawn in curves
         ]
         indices = [np.zeros(0, dtype=np.intp) if found is None else found for found in near]
-        places = [
-            drawn.places_px(found) for drawn, found in zip(self.curves, indices, strict=True)
-        ]
+        places = [drawn.places_px(found) for drawn, found in zip(curves, indices, strict=True)]
         hit = nearest_point(places, pos_px, radius_px, preferred)
-        return None if hit is None else replace(hit, point=int(indices[hit.curve][hit.point]))
+        if hit is None:
+            return None
+        return replace(hit, curve=about[hit.curve], point=int(indices[hit.curve][hit.point]))
 
     def nearest_edge(
         self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1
     ) -> EdgeHit | None:
         """Place on a control polygon near the mouse, as `app.handles.nearest_edge`."""
-        near = [_near_edges(drawn, pos_px, radius_px) for drawn in self.curves]
+        about, curves, preferred = self._near(pos_px, radius_px, preferred)
+        near = [_near_edges(drawn, pos_px, radius_px) for drawn in curves]
         # All edges of a short polygon are looked at, with the one that closes it.
-        loops = [
-            drawn.curve.is_loop and drawn.curve.count <= COMPARED for drawn in self.curves
-        ]
-        places = [drawn.places_px(found) for drawn, found in zip(self.curves, near, strict=True)]
+        loops = [drawn.curve.is_loop and drawn.curve.count <= COMPARED for drawn in curves]
+        places = [drawn.places_px(found) for drawn, found in zip(curves, near, strict=True)]
         hit = nearest_edge(places, loops, pos_px, radius_px, preferred)
-        return None if hit is None else replace(hit, edge=int(near[hit.curve][hit.edge]))
+        if hit is None:
+            return None
+        return replace(hit, curve=about[hit.curve], edge=int(near[hit.curve][hit.edge]))
+
+    def nearest_on_curve(
+        self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1
+    ) -> CurveHit | None:
+        """Place on a limit curve near the mouse, as `app.handles.nearest_on_curve`."""
+        about, curves, preferred = self._near(pos_px, radius_px, preferred)
+        hit = nearest_on_curve(
+            [drawn.vertices_px for drawn in curves],
+            [drawn.parameters for drawn in curves],
+            [drawn.starts for drawn in curves],
+            [drawn.period for drawn in curves],
+            pos_px,
+            radius_px,
+            preferred,
+        )
+        return None if hit is None else replace(hit, curve=about[hit.curve])
+
+    def _near(
+        self, pos_px: NDArray[np.float64], radius_px: float, preferred: int
+    ) -> tuple[list[int], list[Drawn], int]:
+        """Curves that may come near a place: their indices, they, and which is preferred."""
+        if self._boxes_px is None:
+            boxes = [drawn.box_px for drawn in self.curves]
+            self._boxes_px = np.array(boxes).reshape(-1, 2, 2)
+        low, high = self._boxes_px[:, 0], self._boxes_px[:, 1]
+        meets = (low <= pos_px + radius_px) & (high >= pos_px - radius_px)
+        about = np.flatnonzero(meets.all(axis=1)).tolist()
+        place = about.index(preferred) if preferred in about else -1
+        return about, [self.curves[index] for index in about], place
 
     def points_within(
         self, corner_px: NDArray[np.float64], opposite_px: NDArray[np.float64]
@@ -194,10 +233,17 @@ class Scene:
 
     def _drawn(self, curve: Curve, parameters: Parameters, before: Drawn | None) -> Drawn:
         """Curve as drawn: as it was, or by moves from the one before, or from its points."""
+        if before is not None and before.curve is curve and before.scheme is parameters:
+            if not self._moved:
+                return before
+            return self._traced(curve, parameters, before)
         # The kept figure holds curve and parameters, so their identities cannot be taken over.
         key = (id(curve), id(parameters))
         known = self._used.get(key)
         if known is None:
+            if self._before:
+                shown = {(id(drawn.curve), id(drawn.scheme)): drawn for drawn in self._before}
+                self._kept, self._before = {**shown, **self._kept}, ()
             known = self._kept.get(key)
             if known is None or self._moved:
                 known = self._traced(curve, parameters, known or before)

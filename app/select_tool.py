@@ -10,7 +10,6 @@ from app.handles import (
     CurveHit,
     EdgeHit,
     PointHit,
-    nearest_on_curve,
 )
 from app.point_set import PointSet
 from app.scene import NOTHING, Overlay
@@ -180,16 +179,8 @@ class SelectTool(DragTool):
 
     def _hit_curve(self, pointer: Pointer) -> CurveHit | None:
         stage = self._stage
-        curves = stage.scene.curves
-        return nearest_on_curve(
-            [drawn.vertices_px for drawn in curves],
-            [drawn.parameters for drawn in curves],
-            [drawn.starts for drawn in curves],
-            [drawn.period for drawn in curves],
-            pointer.pos_px,
-            SIZES.hit_curve,
-            stage.session.selection.curve,
-        )
+        active = stage.session.selection.curve
+        return stage.scene.nearest_on_curve(pointer.pos_px, SIZES.hit_curve, active)
 
     def _hit_edge(self, pointer: Pointer) -> EdgeHit | None:
         """Find the edge under the mouse, or the edge whose span of the curve lies there."""

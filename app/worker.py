@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import gc
 import sys
 from collections.abc import Callable
+from threading import Thread
 from typing import Any
 
-from PySide6.QtCore import QObject, QThreadPool, Signal
+from PySide6.QtCore import QObject, Signal
 
 from core.polytope import Cancelled
 
@@ -14,11 +17,46 @@ Task = Callable[[Cancelled, Callable[[Any], None]], Any]
 """Computes something; it may ask whether it is cancelled, and send parts before the result."""
 
 
+class _Quiet:
+    """Keeps Python from searching for garbage while a task runs.
+
+    It searches in the thread that happens to allocate, and would take windows that are garbage
+    apart there; Qt does not admit that.
+    """
+
+    def __init__(self) -> None:
+        self._threads: set[Thread] = set()
+        self._searched = False
+
+    def begin(self, thread: Thread) -> None:
+        """A thread begins to run."""
+        if not self._threads:
+            self._searched = gc.isenabled()
+        self._threads.add(thread)
+        gc.disable()
+
+    def end(self, thread: Thread) -> None:
+        """A thread has come to its end, or as good as that."""
+        if thread not in self._threads:
+            return
+        self._threads.remove(thread)
+        # A worker that is gone has not told of the end of its thread.
+        self._threads = {other for other in self._threads if other.is_alive()}
+        if not self._threads and self._searched:
+            gc.enable()
+
+
+_QUIET = _Quiet()
+
+
 class Worker(QObject):
     """Runs tasks in a thread of its own; of those that wait, only the newest is kept.
 
     Each task has a generation number. What a cancelled one sends is not heard any more, even if it
     is on its way already.
+
+    The thread is one of Python's. Qt's pool waits for its threads when it is destroyed; where that
+    happens within Python's lock, a task would wait for the lock, and both forever.
 
     Signals
     -------
@@ -38,8 +76,7 @@ class Worker(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._pool = QThreadPool(self)
-        self._pool.setMaxThreadCount(1)
+        self._thread: Thread | None = None
         self._generation = 0
         self._cancelled = 0
         self._running = False
@@ -66,8 +103,10 @@ class Worker(QObject):
     def stop(self) -> None:
         """Cancel, and wait until nothing runs any more; to be called before the program ends."""
         self.cancel()
-        self._pool.clear()
-        self._pool.waitForDone()
+        thread = self._thread
+        if thread is not None:
+            thread.join()
+            _QUIET.end(thread)
 
     def _start(self) -> None:
         task, self._waiting = self._waiting, None
@@ -75,7 +114,10 @@ class Worker(QObject):
             return
         self._running = True
         self._generation += 1
-        self._pool.start(self._job(self._generation, task))
+        thread = Thread(target=self._job(self._generation, task), daemon=True)
+        self._thread = thread
+        _QUIET.begin(thread)
+        thread.start()
 
     def _job(self, generation: int, task: Task) -> Callable[[], None]:
         """What the thread does; signals carry what it finds over to the window's thread."""
@@ -85,7 +127,8 @@ class Worker(QObject):
 
         def send(part: Any) -> None:
             if not cancelled():
-                self._came.emit(generation, part)
+                with contextlib.suppress(RuntimeError):
+                    self._came.emit(generation, part)
 
         def job() -> None:
             result, fault = None, None
@@ -93,7 +136,8 @@ class Worker(QObject):
                 result = task(cancelled, send)
             except Exception:
                 fault = sys.exc_info()
-            self._ended.emit(generation, result, fault)
+            with contextlib.suppress(RuntimeError):  # the window is gone, and the worker with it
+                self._ended.emit(generation, result, fault)
 
         return job
 
@@ -104,6 +148,8 @@ class Worker(QObject):
     def _take_result(self, generation: int, result: Any, fault: Any) -> None:
         self._running = False
         heard = generation > self._cancelled
+        if self._thread is not None:
+            _QUIET.end(self._thread)
         self._start()
         if fault is not None:
             sys.excepthook(*fault)

@@ -263,6 +263,14 @@ _BUILT_IN: Final = (
         version="R12",
     ),
     Profile(
+        name="dxf-polyline",
+        title="DXF, straight lines",
+        use="OpenSCAD, and programs that take arcs for lines: DXF R2000",
+        format="dxf",
+        entity="polyline",
+        version="R2000",
+    ),
+    Profile(
         name="cad",
         title="CAD",
         use="FreeCAD, LibreCAD, Fusion: DXF, one smooth spline a curve",

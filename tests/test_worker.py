@@ -1,7 +1,9 @@
+import gc
 import sys
 from threading import Event
 
 import pytest
+import shiboken6
 from PySide6.QtCore import QCoreApplication, QThread
 
 from app.worker import Worker
@@ -118,3 +120,45 @@ def test_stopping_waits_for_the_end(qtbot, worker):
     assert ended == [True]
     QCoreApplication.processEvents()
     assert not worker.is_busy
+
+
+def test_nothing_is_searched_for_garbage_while_a_task_runs(qtbot, worker):
+    """Else windows would be taken apart in the task's thread."""
+    gate, seen = Event(), []
+    assert gc.isenabled()
+
+    def task(_cancelled, _send):
+        seen.append(gc.isenabled())
+        assert gate.wait(10)
+
+    worker.ask(task)
+    worker.ask(task)
+    with qtbot.waitSignal(worker.idle):
+        gate.set()
+    assert seen == [False, False]
+    assert gc.isenabled()
+    gate.clear()
+    worker.ask(task)
+    gate.set()
+    worker.stop()
+    assert gc.isenabled()
+
+
+def test_a_worker_that_is_gone_takes_no_task_with_it(qtbot):
+    """Its end must not wait for the task: that waits for Python's lock, which it may hold."""
+    gate, ended = Event(), Event()
+
+    def task(_cancelled, send):
+        assert gate.wait(10)
+        send("part")
+        ended.set()
+
+    lost = Worker()
+    lost.ask(task)
+    shiboken6.delete(lost)
+    gate.set()
+    assert ended.wait(10)
+    following = Worker()
+    with qtbot.waitSignal(following.idle):
+        following.ask(lambda _cancelled, _send: None)
+    assert gc.isenabled()

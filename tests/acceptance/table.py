@@ -12,21 +12,16 @@ from app.assets import example_paths
 from app.pages import register_encoders
 from by_renderers import RENDERERS
 from core.formats import export, open_document
-from core.profiles import PROFILES, Profile
+from core.profiles import PROFILES
 from measure import Row, measured
 
 PROGRAMS = (
     by_freecad, by_inkscape, by_librecad, by_openscad, by_gdal, by_mupdf, *RENDERERS,
 )  # fmt: skip
 
-OWN = Profile(
-    name="polyline", title="A profile of one's own", format="dxf", entity="polyline",
-    version="R2000",
-)  # fmt: skip
+FOR_OPENSCAD = "dxf-polyline"
 """What OpenSCAD needs: it takes arcs for straight lines, knows neither splines nor R12, and fills
 all of an SVG's contours."""
-
-PROFILES_SHOWN = (*PROFILES.values(), OWN)
 
 
 @dataclass
@@ -58,7 +53,7 @@ def lines(folder, tell=lambda words: None):
     for program in PROGRAMS:
         jobs = [
             (profile, name, folder / f"{name}-{profile.name}{profile.suffix}")
-            for profile in PROFILES_SHOWN if profile.format in program.FORMATS
+            for profile in PROFILES.values() if profile.format in program.FORMATS
             for name in documents
         ]  # fmt: skip
         for profile, name, path in jobs:
@@ -75,11 +70,11 @@ def lines(folder, tell=lambda words: None):
                 name,
                 row,
                 program is not by_openscad or all(c.is_loop for c in document.curves),
-                program is not by_openscad or profile is OWN,
+                program is not by_openscad or profile.name == FOR_OPENSCAD,
             )
             tell(told(line))
             found.append(line)
-    order = [profile.name for profile in PROFILES_SHOWN]
+    order = list(PROFILES)
     return sorted(found, key=lambda line: order.index(line.profile))
 
 
@@ -140,8 +135,8 @@ names a larger sheet, so its box tells sizes, not places. resvg paints our page 
 it cuts pages to whole pixels of 96 dpi.
 
 \\* OpenSCAD takes arcs for straight lines, reads neither splines nor R12, and fills what lies
-inside another contour of an SVG; a profile of one's own, a DXF R2000 polyline, is right. It knows
-no open curves, so the vase does not count there.
+inside another contour of an SVG; `dxf-polyline` is for it. It knows no open curves, so the vase does
+not count there.
 """
 
 
