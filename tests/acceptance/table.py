@@ -135,8 +135,8 @@ names a larger sheet, so its box tells sizes, not places. resvg paints our page 
 it cuts pages to whole pixels of 96 dpi.
 
 \\* OpenSCAD takes arcs for straight lines, reads neither splines nor R12, and fills what lies
-inside another contour of an SVG; `dxf-polyline` is for it. It knows no open curves, so the vase does
-not count there.
+inside another contour of an SVG; `dxf-polyline` is for it. It knows no open curves, so the vase
+does not count there.
 """
 
 
