@@ -29,10 +29,7 @@ _NEARLY: Final = 1e-6
 
 
 def register_encoders() -> None:
-    """Make PDF and PNG writable by `core.formats.export`; Qt is loaded when a PNG is written."""
-    from app.export_pdf import encode as encode_pdf
-
-    formats.register("pdf", encode_pdf)
+    """Make PNG writable by `core.formats.export`; Qt is loaded when one is written."""
     formats.register("png", encode_png)
 
 
@@ -75,6 +72,7 @@ def encode_png(contours: Contours, title: str) -> bytes:
         If there would be too many pixels.
     """
     from PySide6.QtCore import QBuffer
+    from PySide6.QtGui import QImage
 
     image = _picture(contours)
     image.setText("Title", title)
@@ -83,7 +81,11 @@ def encode_png(contours: Contours, title: str) -> bytes:
     buffer.open(QBuffer.OpenModeFlag.WriteOnly)
     if not image.save(buffer, "PNG"):  # type: ignore[call-overload]  # the stubs want bytes
         raise NinepointError("There is not enough memory for the picture; choose fewer dpi.")
-    return bytes(buffer.data().data())
+    data = bytes(buffer.data().data())
+    back = QImage.fromData(data)
+    if back.size() != image.size() or back.dotsPerMeterX() != image.dotsPerMeterX():
+        raise NinepointError("Read back, the picture is not the drawing. Nothing was written.")
+    return data
 
 
 def _picture(contours: Contours) -> QImage:

@@ -197,7 +197,7 @@ def test_a_file_that_does_not_read_back_is_never_written(tmp_path, monkeypatch, 
     monkeypatch.setattr("core.formats.prepare", lambda document, profile: other)
     for module in ("dxf", "svg", "tables"):
         monkeypatch.setattr(f"core.formats.{module}.encode", lambda content, title: before)
-    encoders = dict.fromkeys(("dxf", "svg"), lambda content, title: before)
+    encoders = dict.fromkeys(("dxf", "svg", "pdf"), lambda content, title: before)
     monkeypatch.setattr("core.formats._ENCODERS", encoders)
     with pytest.raises(FileError, match="read back, the file is not the drawing"):
         export(letter_f(), path, profile)
@@ -225,13 +225,13 @@ def test_a_survey_tells_what_an_export_would_write_and_writes_nothing(tmp_path, 
 
 def test_a_format_of_the_window_is_written_once_it_is_registered(tmp_path, monkeypatch):
     monkeypatch.setattr("core.formats._ENCODERS", {})
-    path = tmp_path / "f.pdf"
-    with pytest.raises(FileError, match="PDF can only be written with the window"):
-        export(letter_f(), path, named("pdf"))
-    register("pdf", lambda contours, title: f"{title} {contours.profile.name}".encode())
-    assert profile_for(path) == named("pdf")
-    assert export(letter_f(), path, named("pdf")).closed_contours == 1
-    assert path.read_bytes() == b"f pdf"
+    path = tmp_path / "f.png"
+    with pytest.raises(FileError, match="PNG can only be written with the window"):
+        export(letter_f(), path, named("png"))
+    register("png", lambda contours, title: f"{title} {contours.profile.name}".encode())
+    assert profile_for(path) == named("png")
+    assert export(letter_f(), path, named("png")).closed_contours == 1
+    assert path.read_bytes() == b"f png"
     with pytest.raises(ValueError, match="no format 'gcode'"):
         register("gcode", lambda contours, title: b"")
 

@@ -13,7 +13,7 @@ import msgspec
 from core import atomic, store
 from core.document import Document
 from core.errors import FileError
-from core.formats import dxf, points, read_json, svg, tables
+from core.formats import dxf, pdf, points, read_json, svg, tables
 from core.formats.contours import Contours
 from core.formats.tables import Tables
 from core.formats.verify import verify
@@ -59,7 +59,11 @@ Encoder = Callable[[Contours, str], bytes]
 
 _TABLES: Final = ("csv", "tsv", "json")
 
-_ENCODERS: Final[dict[str, Encoder]] = {"svg": svg.encode, "dxf": dxf.encode}
+_ENCODERS: Final[dict[str, Encoder]] = {
+    "svg": svg.encode,
+    "dxf": dxf.encode,
+    "pdf": pdf.encode,
+}
 """Encoders of the formats of contours; `register` adds those that need a screen's library."""
 
 _OWN: Final = (*_ENCODERS, *_TABLES)
@@ -229,7 +233,7 @@ def export(document: Document, path: str | Path, profile: Profile) -> ExportRepo
     """Write the curves of a document into a file for other programs.
 
     The file is read back by another reader, and compared, before it takes the old one's place
-    (`core.formats.verify`); PDF and PNG, whose encoders are registered, are not.
+    (`core.formats.verify`); what encoders do that are registered is theirs.
 
     Parameters
     ----------

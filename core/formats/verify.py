@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.errors import FileError, NinepointError
-from core.formats import svg, verify_dxf, verify_svg
+from core.formats import svg, verify_dxf, verify_pdf, verify_svg
 from core.formats.contours import Contour, Contours
 from core.formats.dxf import layers_of
 from core.formats.readback import MOST_POINTS, Readback, keep_near
@@ -87,17 +87,24 @@ def _verify_contours(data: bytes, content: Contours) -> None:
         _require_unit(said, "" if profile.version == "R12" else profile.unit)
         moved = np.zeros(2)
     else:
-        said, size, found = verify_svg.outlines(data, fine)
+        is_svg = profile.format == "svg"
+        read = verify_svg.outlines if is_svg else verify_pdf.outlines
+        said, size, found = read(data, fine)
         _require_unit(said, profile.unit)
         moved, page = svg.page(content)
         if not np.allclose(size, page, rtol=0, atol=10.0**-content.places):
             raise NinepointError("its page has another size")
-        counts = svg.path_counts(content)
+        if is_svg:
+            counts = svg.path_counts(content)
+        else:
+            moved = moved - (0.0, page[1])
+            layers = list(dict.fromkeys(contour.layer for contour in content.contours))
+            found = [verify_pdf.named(outline, layers) for outline in found]
     if len(found) != sum(counts):
         raise NinepointError(f"it has {len(found):,} contours instead of {sum(counts):,}")
     whole = _joined(found, counts)
     largest = float(np.abs(content.box).max())
-    rounding = _ROUNDING * largest + 10.0**-content.places * (profile.format == "svg")
+    rounding = _ROUNDING * largest + 10.0**-content.places * (profile.format != "dxf")
     for contour, outline in zip(content.contours, whole, strict=True):
         _compare(contour, outline)
     low = np.min([outline.line.min(axis=0) for outline in whole], axis=0) + moved

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.export_pdf import MAX_SIDE, encode
 from core.document import Curve, Document
 from core.errors import NinepointError
 from core.formats import svg
 from core.formats.contours import Contours
+from core.formats.pdf import MAX_SIDE, encode
 from core.profiles import named
 from drawings import documents, letter_f
 from independent import chord_error, exact_points, farthest
