@@ -11,8 +11,9 @@ from core.formats.outlines import straight
 from core.formats.sketch import UNITS_MM, Sketch, Trace
 from damage import damaged, dxf, svg
 
-FILES = 300
-"""Damaged files of each kind in each run; `tests/acceptance/test_damaged_files.py` has more."""
+FILES = 2000
+"""Damaged files of each kind in each run; `tests/acceptance/test_damaged_files.py` reads as many
+as one likes."""
 
 
 @pytest.fixture
