@@ -1,4 +1,4 @@
-"""What is known of the scheme of the document: at once roughly, and sharply when the hand rests."""
+"""What is known of the scheme of the document: roughly at once, and sharply when the hand rests."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.session import Session
 from app.worker import Task, Worker
-from core.continuity import Convergence, Smoothness, smoothness
+from core.continuity import Convergence, Effort, Smoothness, smoothness
 from core.document import Document
 from core.family import Parameters
 from core.hoelder import HoelderInterval
@@ -23,8 +23,9 @@ REST_MS: Final = 150
 """The hand rests when no parameter has changed for so long."""
 
 LIVE_MS: Final = 60
-"""While parameters change, they are looked at so often: a thread that computes all the time would
-take the breath from the curve that follows the hand (measured: 18 instead of 11 ms a frame)."""
+"""Where a glance leaves more to be said while parameters change, a thread looks again so often: one
+that computes all the time would take the breath from the curve that follows the hand (measured: 18
+instead of 11 ms a frame)."""
 
 SHARP: Final = 1e-3
 """Width of a Hölder interval below which its digits are told instead of its ends."""
@@ -37,7 +38,7 @@ class Finding:
     Attributes
     ----------
     parameters
-        The member; while a slider moves it may lie a frame behind the document's.
+        The member.
     smoothness
         Class and Hölder interval.
     report
@@ -75,10 +76,11 @@ class Finding:
 
 
 class Analysis(QObject):
-    """Follows the parameters of a session, in the background.
+    """Follows the parameters of a session.
 
-    While they change, each finding is as sharp as a frame allows; when they rest it is narrowed,
-    and the report made if somebody reads it. The last finding stands until a better one comes.
+    Each change is glanced at on the spot, so that the badge is painted with the curve. What a
+    glance leaves wide is looked at again in the background; when the parameters rest the finding is
+    narrowed, and the report made if somebody reads it.
 
     Parameters
     ----------
@@ -150,9 +152,12 @@ class Analysis(QObject):
 
     def _ask(self) -> None:
         self._deep.cancel()
-        if not self._live.isActive():
-            self._live.start()
         self._rest.start()
+        parameters = self._session.document.parameters
+        finding = Finding(parameters, smoothness(parameters.mask, Effort.GLANCE))
+        if not (finding.smoothness.exponent.is_narrow or self._live.isActive()):
+            self._live.start()
+        self._take(finding)
 
     def _look(self) -> None:
         self._quick.ask(_quick(self._session.document.parameters))
@@ -161,9 +166,12 @@ class Analysis(QObject):
         self._deep.ask(_deep(self._session.document.parameters, self._wants_report))
 
     def _take_quick(self, finding: Finding) -> None:
-        # One that comes late says less than the deep one that overtook it.
+        # One that comes late is of other parameters, or says less than the deep one before it.
         known = self.finding
-        if known is None or known.parameters is not self._session.document.parameters:
+        if known is None or (
+            finding.parameters is known.parameters
+            and finding.smoothness.exponent.width < known.smoothness.exponent.width
+        ):
             self._take(finding)
 
     def _take(self, finding: Finding) -> None:
@@ -189,7 +197,7 @@ def _deep(parameters: Parameters, with_report: bool) -> Task:
 
     def task(cancelled: Cancelled, _send: Callable[[Any], None]) -> Finding:
         if not with_report:
-            smooth = smoothness(parameters.mask, narrow=True, cancelled=cancelled)
+            smooth = smoothness(parameters.mask, Effort.FULL, cancelled)
             return Finding(parameters, smooth)
         found = report(parameters, cancelled)
         return Finding(parameters, found.smoothness, found)

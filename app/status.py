@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QToolButton, QWid
 from app.guard import guarded
 from app.session import Session
 from app.style import palette_of
+from app.worker import Worker
 from core.document import Document
 from core.errors import NinepointError
 
@@ -28,10 +29,14 @@ SIZE_DELAY_MS: Final = 60
 """The size is computed when the hand rests this long: it must not slow a drag."""
 
 HELD_POINTS: Final = 20_000
-"""Number of control points up to which the size follows while the hand rests within a drag."""
+"""Number of control points up to which the size is computed at once, also while the hand rests
+within a drag; that of longer drawings comes from the background when the drag has ended."""
 
 SIZE_LEVEL: Final = 6
 """Dyadic level of the points that the size is taken from: 64 a span, exact to some 1e-4 of it."""
+
+UNKNOWN: Final = "\N{HORIZONTAL ELLIPSIS}"
+"""What stands for the class of the scheme before the first finding."""
 
 SIZE_POINTS: Final = 2_000_000
 """Largest number of curve points that the size is taken from; long curves are sampled coarser."""
@@ -58,6 +63,7 @@ class StatusBar(QStatusBar):
         self.addWidget(self.hint, 1)
         self.proof = QToolButton()
         self.proof.setAutoRaise(True)
+        self.proof.setText(UNKNOWN)  # a button without words is higher than one with
         self.proof.setAccessibleName("What is proven of the scheme")
         widest = "C\u00b9\u00b9 proven, not C\u00b9\u00b2"
         self.proof.setMinimumWidth(self.proof.fontMetrics().horizontalAdvance(widest) + 12)
@@ -74,6 +80,8 @@ class StatusBar(QStatusBar):
         self._timer.setSingleShot(True)
         self._timer.setInterval(SIZE_DELAY_MS)
         self._timer.timeout.connect(self._on_rest)
+        self._measurer = Worker(self)
+        self._measurer.done.connect(self._show_size)
         session.changed.connect(self._on_changed)
         self.measure()
 
@@ -125,8 +133,19 @@ class StatusBar(QStatusBar):
         self.cursor_label.setText(f"{x:.2f}, {y:.2f}".replace("-", "\N{MINUS SIGN}"))
 
     def measure(self) -> None:
-        """Show the size of the drawing as it is now."""
-        size = drawn_size(self._session.document)
+        """Show the size of the drawing as it is now; that of a long one as soon as it is known."""
+        document = self._session.document
+        if _is_long(document):
+            self._measurer.ask(lambda _cancelled, _send: drawn_size(document))
+        else:
+            self._show_size(drawn_size(document))
+
+    def stop(self) -> None:
+        """End what is measured in the background; returns when nothing runs any more."""
+        self._timer.stop()
+        self._measurer.stop()
+
+    def _show_size(self, size: tuple[float, float] | None) -> None:
         if self._warns:
             self.size_label.setText("no finite size")
         elif size is None:
@@ -149,15 +168,19 @@ class StatusBar(QStatusBar):
 
     def _on_rest(self) -> None:
         """Measure, but not a long drawing while it is held: the hand would feel it."""
-        total = sum(curve.count for curve in self._session.document.curves)
-        if self._session.in_gesture and total > HELD_POINTS:
+        if self._session.in_gesture and _is_long(self._session.document):
             self._timer.start()
         else:
             self.measure()
 
     def _on_changed(self, old: Document, new: Document) -> None:
         if old.curves is not new.curves or old.parameters is not new.parameters:
+            self._measurer.cancel()
             self._timer.start()
+
+
+def _is_long(document: Document) -> bool:
+    return sum(curve.count for curve in document.curves) > HELD_POINTS
 
 
 def drawn_size(document: Document) -> tuple[float, float] | None:

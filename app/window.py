@@ -96,6 +96,7 @@ class MainWindow(QMainWindow):
         self.docks = Docks(self)
         self.status = StatusBar(self.session, self)
         self.setStatusBar(self.status)
+        self._stops.append(self.status.stop)
         self.commands = Actions(self)
         self.tool_bar = self._make_tool_bar()
         fill_menu_bar(self)

@@ -1,4 +1,4 @@
-"""Cells of the dual grid: pieces of a limit function that refinement cuts in halves."""
+"""Cells of the dual grid: pieces of a limit function that refinement cuts into smaller ones."""
 
 from __future__ import annotations
 
@@ -12,16 +12,21 @@ from numpy.typing import NDArray
 from core.basis import MEMORY, BasicLimitFunction
 from core.chords import cell_constant, size_constant
 from core.errors import NoLimitError
+from core.folding import folded
 from core.mask import Mask
+from core.runs import PARTS
 
 WIDTH: Final = 1e-9
 """Width of the interval of a maximum, unless the search runs out of its budget."""
 
-_MAX_DEPTH: Final = 60
-"""Halvings after which the search ends: for rough functions the interval then stays wider."""
+STEP: Final = 3
+"""Refinements that are done at a time, into `PARTS` parts: few large products, not many small."""
+
+_MAX_DEPTH: Final = 20
+"""Steps after which the search ends: for rough functions the interval then stays wider."""
 
 _MAX_CELLS: Final = 4_000
-"""Cells at which the search ends: for divergent schemes nothing can be excluded."""
+"""Cells, not excluded yet, at which the search ends: for divergent schemes none ever are."""
 
 _ROUNDING: Final = 1e-13
 """Absolute rounding of a value, for data of size 1: sums of some 20 products, through 60 levels."""
@@ -49,7 +54,8 @@ class Cells:
 
     Notes
     -----
-    Refinement sends the cell j to the cells 2j and 2j + 1 of the finer grid, its two halves.
+    Refinement sends the cell j to the cells 2j and 2j + 1 of the finer grid, its two halves; three
+    of them at once to its eight parts 8j .. 8j + 7.
     """
 
     mask: Mask
@@ -79,10 +85,10 @@ class Cells:
         by_size = (low + high + size_constant(self.mask) * (high - low)) / 2
         return np.asarray(np.minimum(by_chord, by_size), dtype=np.float64)
 
-    def halves(self) -> Cells:
-        """The cells of half the size, left halves first."""
-        left, right = _halving(self.mask)
-        return Cells(self.mask, np.concatenate([self.windows @ left.T, self.windows @ right.T]))
+    def parts(self) -> Cells:
+        """The cells of an eighth of the size: all parts of the first cell, then of the second."""
+        _, from_cell = refinements(self.mask)
+        return Cells(self.mask, (self.windows @ from_cell).reshape(-1, len(from_cell)))
 
     def subset(self, chosen: NDArray[np.bool_]) -> Cells:
         """Some of the cells."""
@@ -93,7 +99,7 @@ def maximum(cells: Cells) -> Interval:
     """Interval of the maximum over the cells and 0, which the function takes elsewhere.
 
     The largest end is a lower bound. A cell whose upper bound exceeds it by no more than `WIDTH`
-    is dropped; the others are halved.
+    is dropped; the others are cut into parts.
     """
     lower = dropped = 0.0
     try:
@@ -108,22 +114,34 @@ def maximum(cells: Cells) -> Interval:
             remaining = max(dropped, float(upper.max()))
             if alive.sum() > _MAX_CELLS:
                 break
-            cells = cells.subset(alive).halves()
+            cells = cells.subset(alive).parts()
     except NoLimitError:
         return Interval(max(lower - _ROUNDING, 0.0), np.inf)
     return Interval(max(lower - _ROUNDING, 0.0), remaining + _ROUNDING)
 
 
 @lru_cache(maxsize=MEMORY)
-def _halving(mask: Mask) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Matrices that refine a window into those of the left and of the right half."""
-    size = mask.end - mask.start
-    row, column = np.indices((size, size))
-    index = mask.end - 1 + row - 2 * column - mask.start
+def refinements(mask: Mask) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Matrices that cut a window of control points into those of its eight parts.
 
-    def part(shift: int) -> NDArray[np.float64]:
-        place = index + shift
-        inside = (place >= 0) & (place < len(mask.values))
-        return np.where(inside, mask.values[np.clip(place, 0, len(mask.values) - 1)], 0.0)
-
-    return part(0), part(1)
+    Returns
+    -------
+    from_span, from_cell
+        Shapes (r + 1, 8 r) and (r, 8 r), r = end - start. The parts of a span ``[i, i + 1]`` and of
+        a cell ``[i - 1/2, i + 1/2]`` are cells of the three times refined polygon, whose point m
+        lies at ``t = (m + 1/2) / 8 - 1/2`` (theory, section 1): cells 4 to 11 of the span 0, cells
+        0 to 7 of the cell 0.
+    """
+    parts = PARTS
+    iterated = folded(folded(mask.values, mask.values), mask.values)
+    width = mask.end - mask.start
+    both = []
+    for first, reads in ((parts // 2, width + 1), (0, width)):
+        coarse = np.arange(reads) + 1 - mask.end
+        fine = (first + np.arange(parts)[:, None] + np.arange(width) + 1 - mask.end).ravel()
+        index = fine - parts * coarse[:, None] - (parts - 1) * mask.start
+        inside = (index >= 0) & (index < len(iterated))
+        matrix = np.where(inside, iterated[np.clip(index, 0, len(iterated) - 1)], 0.0)
+        matrix.flags.writeable = False
+        both.append(matrix)
+    return both[0], both[1]

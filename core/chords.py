@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from core.basis import MEMORY, BasicLimitFunction
 from core.errors import NoLimitError
+from core.folding import folded, norm
 from core.mask import Mask
 
 ROUNDING: Final = 1 + 1e-10
@@ -37,6 +38,9 @@ ROUNDING: Final = 1 + 1e-10
 
 _SAMPLE_LEVELS: Final = (4, 6, 8, 10)
 """Levels of the samples, tried in turn until refinement halves the second differences."""
+
+_SIZE_LEVEL: Final = 8
+"""Level of the samples of sizes: what the chord bound leaves between them is below 1e-5."""
 
 _FINE: Final = 6
 """Dyadic level at which a curve is drawn that seems to converge, though it is not proven."""
@@ -52,21 +56,17 @@ def second_difference_norm(mask: Mask, level: int) -> float:
     It is ``max_i sum_j |b_{i - 2^level j}|`` of the iterated symbol
     ``b(z) b(z^2) ... b(z^(2^(level-1)))``, ``b = a / (1+z)^2`` (paper, Theorem 2.1).
     """
-    step = _second_differences(mask)
-    iterated = np.ones(1)
-    for _ in range(level):
-        spread = np.zeros(2 * len(iterated) - 1)
-        spread[::2] = iterated
-        iterated = np.convolve(spread, step)
-    period = 2**level
-    padded = np.concatenate([iterated, np.zeros(-len(iterated) % period)])
-    return float(np.abs(padded).reshape(-1, period).sum(axis=0).max()) * ROUNDING
+    if level == 0:
+        return ROUNDING
+    return norm(_folded(mask, level), level) * ROUNDING
 
 
 @lru_cache(maxsize=MEMORY)
-def _second_differences(mask: Mask) -> NDArray[np.float64]:
-    """Coefficients of ``a(z) / (1+z)^2``; the exact division is slow, and asked for many levels."""
-    return mask.divided(2).values
+def _folded(mask: Mask, level: int) -> NDArray[np.float64]:
+    """The iterated symbol of second differences: each level comes from the one before."""
+    if level == 1:
+        return mask.divided(2).values
+    return folded(_folded(mask, level - 1), _folded(mask, 1))
 
 
 @lru_cache(maxsize=MEMORY)
@@ -99,7 +99,7 @@ def size_constant(mask: Mask) -> float:
     It is the largest sample plus what the chord bound leaves between the samples, for data of size
     1, whose second differences are at most 4.
     """
-    level = _SAMPLE_LEVELS[-1]
+    level = _SIZE_LEVEL
     largest = float(np.abs(BasicLimitFunction(mask).table(level)).sum(axis=0).max())
     rest = 4 * chord_constant(mask) * second_difference_norm(mask, level)
     return (largest + rest) * ROUNDING

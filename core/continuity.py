@@ -8,6 +8,7 @@ Shi et al., as cited by the paper for Theorem 2.1.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -19,7 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.basis import MEMORY
-from core.hoelder import HoelderInterval, exact_interval, quick_interval, rho_floor
+from core.folding import folded, norm
+from core.hoelder import (
+    HoelderInterval,
+    exact_interval,
+    first_interval,
+    quick_interval,
+    rho_floor,
+)
 from core.mask import Mask
 from core.polytope import Cancelled, never
 
@@ -100,8 +108,8 @@ def certificate(mask: Mask, exact: bool = False) -> Certificate:
     found = _certificate(mask)
     if not exact or found.order is None or found.iterations is None:
         return found
-    norm = iterated_norm(derived(mask, found.order), found.iterations)
-    return Certificate(found.order, found.iterations, norm)
+    exactly = iterated_norm(derived(mask, found.order), found.iterations)
+    return Certificate(found.order, found.iterations, exactly)
 
 
 @lru_cache(maxsize=MEMORY)
@@ -113,11 +121,11 @@ def _certificate(mask: Mask) -> Certificate:
     highest = min(multiplicity - 1, int(np.ceil(multiplicity - 1 - floor)))
     for order in range(highest, -1, -1):
         b = derived(mask, order)
-        for iterations, (norm, error) in enumerate(_float_norms(b.values), start=1):
-            if norm - error >= 1:
+        for iterations, (size, error) in enumerate(_float_norms(b.values), start=1):
+            if size - error >= 1:
                 continue
-            if norm + error < 1:
-                return Certificate(order, iterations, norm)
+            if size + error < 1:
+                return Certificate(order, iterations, size)
             exact = iterated_norm(b, iterations)
             if exact < 1:
                 return Certificate(order, iterations, float(exact))
@@ -166,7 +174,17 @@ class Smoothness:
         return Convergence.DISPROVEN if self.not_class == 0 else Convergence.UNDECIDED
 
 
-def smoothness(mask: Mask, narrow: bool = False, cancelled: Cancelled = never) -> Smoothness:
+class Effort(Enum):
+    """How long the Hölder exponent is looked for; the interval is proven in any case."""
+
+    GLANCE = "some 2 ms: within the frame of a slider's move"
+    QUICK = "some 5 ms, up to 30"
+    FULL = "some 50 ms, up to 3 s: as far as it goes"
+
+
+def smoothness(
+    mask: Mask, effort: Effort = Effort.QUICK, cancelled: Cancelled = never
+) -> Smoothness:
     """Class of a scheme from both sides: proven, and proven not (theory, section 8).
 
     A scheme with an exponent of at most n is not C^n, except that limits of an exponent n may
@@ -178,12 +196,17 @@ def smoothness(mask: Mask, narrow: bool = False, cancelled: Cancelled = never) -
     ----------
     mask
         A mask whose rules sum to 1.
-    narrow
-        Whether the exponent is narrowed as far as it goes, some 50 ms, or within a frame.
+    effort
+        How far the exponent is narrowed.
     cancelled
-        Asked now and then; True ends the narrowing.
+        Asked now and then; True ends the narrowing of `Effort.FULL`.
     """
-    exponent = exact_interval(mask, cancelled) if narrow else quick_interval(mask)
+    if effort is Effort.GLANCE:
+        exponent = first_interval(mask)
+    elif effort is Effort.QUICK:
+        exponent = quick_interval(mask)
+    else:
+        exponent = exact_interval(mask, cancelled)
     multiplicity, quotient = mask.factored()
     if len(quotient.coefficients) == 1:
         not_class = multiplicity - 1
@@ -194,7 +217,7 @@ def smoothness(mask: Mask, narrow: bool = False, cancelled: Cancelled = never) -
     return Smoothness(certificate(mask), exponent, not_class)
 
 
-def _float_norms(step: NDArray[np.float64]) -> list[tuple[float, float]]:
+def _float_norms(step: NDArray[np.float64]) -> Iterator[tuple[float, float]]:
     """Norms for L = 1, 2, ..., each with a bound of its rounding error.
 
     Each coefficient of the L-fold mask is a sum of at most len(step)^L products of L factors. Its
@@ -203,17 +226,9 @@ def _float_norms(step: NDArray[np.float64]) -> list[tuple[float, float]]:
     ``||b||^L``.
     """
     eps = float(np.finfo(np.float64).eps)
-    padded = np.concatenate([step, np.zeros(len(step) % 2)])
-    single = float(np.abs(padded).reshape(-1, 2).sum(axis=0).max())
-    iterated = np.ones(1)
-    norms = []
+    single = norm(step, 1)
+    mask = step
     for iterations in range(1, MAX_ITERATIONS + 1):
-        spread = np.zeros(2 * len(iterated) - 1)
-        spread[::2] = iterated
-        iterated = np.convolve(spread, step)
-        period = 2**iterations
-        whole = np.concatenate([iterated, np.zeros(-len(iterated) % period)])
-        norm = float(np.abs(whole).reshape(-1, period).sum(axis=0).max())
         error = 2 * iterations * (len(step) + 1) * eps * single**iterations
-        norms.append((norm, max(error, _UNDECIDED)))
-    return norms
+        yield norm(mask, iterations), max(error, _UNDECIDED)
+        mask = folded(mask, step)

@@ -10,7 +10,7 @@ from functools import cache, cached_property
 from typing import Final, Literal, get_args
 
 from core.errors import ParameterError
-from core.mask import Mask
+from core.mask import ONE, Mask
 from core.parents import bspline, lagrange
 
 Neighbours = Literal["translated", "mirrored"]
@@ -86,6 +86,13 @@ def displacement() -> Mask:
     return lagrange() - bspline()
 
 
+@cache
+def _displacements() -> tuple[Mask, Mask, Mask]:
+    """Displacement of the own neighbour, the left and the right one."""
+    v = displacement()
+    return v, v.shifted(2), v.shifted(-2)
+
+
 @dataclass(frozen=True, init=False)
 class Parameters:
     """One member of the family: three exact parameters and the choice of neighbours.
@@ -139,17 +146,20 @@ class Parameters:
         ``s, d = (z^2 +- z^-2) / 2``. Both are affine in the parameters, and agree when
         alpha = gamma.
         """
-        v = displacement()
-        left, right = v.shifted(2), v.shifted(-2)
-        resultant = v.scaled(self.beta)
+        v, left, right = _displacements()
         if self.neighbours == "translated":
-            resultant += left.scaled(self.alpha) + right.scaled(self.gamma)
-        else:
-            w = v.alternated()
-            mean, lean = (self.alpha + self.gamma) / 2, (self.alpha - self.gamma) / 2
-            resultant += (left + right).scaled(mean)
-            resultant += (w.shifted(2) - w.shifted(-2)).scaled(lean)
-        return lagrange() + resultant
+            return Mask.combined(
+                (ONE, lagrange()), (self.alpha, left), (self.beta, v), (self.gamma, right)
+            )
+        mean, lean = (self.alpha + self.gamma) / 2, (self.alpha - self.gamma) / 2
+        return Mask.combined(
+            (ONE, lagrange()),
+            (self.beta, v),
+            (mean, left),
+            (mean, right),
+            (lean, left.alternated()),
+            (-lean, right.alternated()),
+        )
 
     @property
     def reversed(self) -> Parameters:

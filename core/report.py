@@ -10,7 +10,7 @@ from typing import Any
 
 from core.basis import BasicLimitFunction
 from core.cells import Interval
-from core.continuity import Convergence, Smoothness, certificate, smoothness
+from core.continuity import Convergence, Effort, Smoothness, certificate, smoothness
 from core.ends import end_rules
 from core.errors import NoLimitError
 from core.family import Parameters
@@ -112,7 +112,7 @@ def report(parameters: Parameters, cancelled: Cancelled = never) -> Report:
         Asked now and then; True ends the narrowing of the Hölder interval.
     """
     mask = parameters.mask
-    smooth = smoothness(mask, narrow=True, cancelled=cancelled)
+    smooth = smoothness(mask, Effort.FULL, cancelled)
     exact = Smoothness(certificate(mask, exact=True), smooth.exponent, smooth.not_class)
     phi = BasicLimitFunction(mask)
     limit: Stencil | None = None

@@ -14,26 +14,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.affine import IDENTITY, Affine
-from core.basis import MEMORY, BasicLimitFunction
+from core.basis import BasicLimitFunction
 from core.blocks import FAN, bends_of, boxes_of, from_chords
+from core.cells import STEP, refinements
 from core.chords import cell_constant, second_difference_norm
 from core.limit import LimitCurve
-from core.mask import Mask
 from core.pyramid import CurvePyramid, Pyramid, contained, meets
 from core.runs import PARTS, Chords, Runs
 
 BUDGET: Final = 4000
 """Number of chords that a view takes on, about, before its tolerance gives way."""
-
-_STEP: Final = 3
-"""Levels that are refined at a time: `PARTS` is 2^3."""
 
 _ROUNDS: Final = 12
 """Rounds of refinement, 36 levels: beyond, rounding is larger than any part of a span."""
@@ -223,16 +219,16 @@ def _subdivide(
     limits = limits - np.concatenate([shift, -shift])
     constant = cell_constant(mask)
     table: Callable[[int], NDArray[np.float64]] = basis.span_table
-    shrinking = np.array([second_difference_norm(mask, level) for level in range(_STEP + 1)])
+    shrinking = np.array([second_difference_norm(mask, level) for level in range(STEP + 1)])
     within = np.zeros(len(spans), dtype=bool)
     for _ in range(_ROUNDS):
         levels = (bounds[:, None] * shrinking > tolerance).sum(axis=1)
-        wanted = levels > _STEP
-        levels = np.minimum(levels, _STEP)
+        wanted = levels > STEP
+        levels = np.minimum(levels, STEP)
         bent = found.affordable(wanted, within, bounds, int((1 << levels).sum()))
         windows_left, times_left, bounds_left = windows[:, ~bent], times[~bent], bounds[~bent]
         levels = found.thinned(levels[~bent])
-        for level in range(_STEP + 1):
+        for level in range(STEP + 1):
             chosen = levels == level
             if chosen.any():
                 points = windows_left[:, chosen] @ table(level)
@@ -269,34 +265,3 @@ def _tabulate(
     level = int(found.thinned(np.full(len(spans), level)).max())
     points = curve.span_points(spans, level).transpose(2, 0, 1) - shift[:, None, None]
     found.add_curve(spans.astype(np.float64), 1.0, points)
-
-
-@lru_cache(maxsize=MEMORY)
-def refinements(mask: Mask) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Matrices that cut a window of control points into those of its eight parts.
-
-    Returns
-    -------
-    from_span, from_cell
-        Shapes (r + 1, 8 r) and (r, 8 r), r = end - start. The parts of a span ``[i, i + 1]`` and of
-        a cell ``[i - 1/2, i + 1/2]`` are cells of the three times refined polygon, whose point m
-        lies at ``t = (m + 1/2) / 8 - 1/2`` (theory, section 1): cells 4 to 11 of the span 0, cells
-        0 to 7 of the cell 0.
-    """
-    parts = PARTS
-    iterated = np.ones(1)
-    for power in (1, 2, 4):
-        spread = np.zeros(power * (len(mask.values) - 1) + 1)
-        spread[::power] = mask.values
-        iterated = np.convolve(iterated, spread)
-    width = mask.end - mask.start
-    both = []
-    for first, reads in ((parts // 2, width + 1), (0, width)):
-        coarse = np.arange(reads) + 1 - mask.end
-        fine = (first + np.arange(parts)[:, None] + np.arange(width) + 1 - mask.end).ravel()
-        index = fine - parts * coarse[:, None] - (parts - 1) * mask.start
-        inside = (index >= 0) & (index < len(iterated))
-        matrix = np.where(inside, iterated[np.clip(index, 0, len(iterated) - 1)], 0.0)
-        matrix.flags.writeable = False
-        both.append(matrix)
-    return both[0], both[1]

@@ -7,11 +7,13 @@ from app import analysis as analysis_module
 from app.analysis import Analysis, Finding, exponent_words
 from app.opening import ready_document
 from app.session import Session
-from core.continuity import smoothness
+from core.continuity import Effort, smoothness
 from core.family import PRESETS, Parameters
-from core.hoelder import HoelderInterval
+from core.hoelder import QUICK_WIDTH, HoelderInterval
+from core.polytope import never
 
 DIVERGENT = Parameters(10, 0, 0)
+HARD = Parameters("1/4", "-6/5", "-1/40")
 
 
 @pytest.fixture
@@ -57,28 +59,55 @@ def test_while_parameters_change_the_newest_ends_up_known(qtbot, analysis):
     assert at_rest(qtbot, analysis).parameters is analysis._session.document.parameters
 
 
-def test_the_last_finding_stands_until_the_next(qtbot, analysis, monkeypatch):
+def test_a_change_is_glanced_at_on_the_spot(qtbot, analysis):
     analysis.start()
-    before = at_rest(qtbot, analysis)
-    gate = Event()
+    at_rest(qtbot, analysis)
+    choose(analysis, PRESETS["Tight"])
+    found = analysis.finding
+    assert found.parameters is analysis._session.document.parameters
+    assert found.statement == "C\u2074 proven, not C\u2075"
+    assert not analysis.is_at_rest
 
-    def slow(*args, **keywords):
-        assert gate.wait(10)
-        return smoothness(*args, **keywords)
+
+def test_what_a_glance_leaves_wide_is_looked_at_again_before_the_hand_rests(qtbot, analysis):
+    findings = []
+    analysis.changed.connect(findings.append)
+    analysis.start()
+    choose(analysis, HARD)
+    at_rest(qtbot, analysis)
+    widths = [f.smoothness.exponent.width for f in findings if f.parameters == HARD]
+    assert widths[0] > 2 * QUICK_WIDTH
+    assert widths[1] <= QUICK_WIDTH + 1e-8
+    assert widths[2] < 1e-3
+    assert len(widths) == 3
+
+
+def test_a_look_that_comes_late_is_not_shown(qtbot, analysis, monkeypatch):
+    gate, begun = Event(), Event()
+
+    def slow(mask, effort=Effort.QUICK, cancelled=never):
+        if effort is Effort.QUICK:
+            begun.set()
+            assert gate.wait(10)
+        return smoothness(mask, effort, cancelled)
 
     monkeypatch.setattr(analysis_module, "smoothness", slow)
+    analysis.start()
+    choose(analysis, HARD)
+    qtbot.waitUntil(begun.is_set)
     choose(analysis, PRESETS["Tight"])
-    assert analysis.finding is before
-    assert not analysis.is_at_rest
+    findings = []
+    analysis.changed.connect(findings.append)
     gate.set()
-    assert at_rest(qtbot, analysis).statement == "C\u2074 proven, not C\u2075"
+    at_rest(qtbot, analysis)
+    assert {finding.parameters for finding in findings} == {PRESETS["Tight"]}
 
 
 def test_a_change_cancels_the_narrowing(qtbot, analysis, monkeypatch):
     begun, cancellations = Event(), []
 
-    def endless(mask, narrow=False, cancelled=None):
-        if narrow and not cancellations:
+    def endless(mask, effort=Effort.QUICK, cancelled=None):
+        if effort is Effort.FULL and not cancellations:
             begun.set()
             while not cancelled():
                 pass
@@ -111,7 +140,11 @@ def test_the_report_is_made_only_while_somebody_reads_it(qtbot, analysis):
 def test_a_failing_search_ends_in_rest_too(qtbot, analysis, monkeypatch):
     reported = []
     monkeypatch.setattr("sys.excepthook", lambda kind, error, trace: reported.append(kind))
-    monkeypatch.setattr(analysis_module, "smoothness", lambda *args, **keywords: 1 / 0)
+
+    def failing(mask, effort=Effort.QUICK, cancelled=never):
+        return smoothness(mask, effort) if effort is Effort.GLANCE else 1 / 0
+
+    monkeypatch.setattr(analysis_module, "smoothness", failing)
     with qtbot.waitSignal(analysis.rested):
         analysis.start()
     assert set(reported) == {ZeroDivisionError}

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.cells import WIDTH, Cells, maximum
+from core.basis import BasicLimitFunction
+from core.cells import WIDTH, Cells, maximum, refinements
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
 from oracles import convergent_members
@@ -30,13 +31,12 @@ def test_the_ends_are_curve_points(parameters, seed):
 
 
 @given(convergent_members(), SEEDS)
-def test_the_halves_are_the_two_halves_of_the_curve(parameters, seed):
+def test_the_parts_are_the_eighths_of_the_curve(parameters, seed):
     cell, curve = cell_of(parameters, seed)
-    quarters = cell.halves().halves()
-    # Left halves first: left-left, right-left, left-right, right-right.
-    starts = np.array([29.5, 30.0, 29.75, 30.25])
-    expected = [[curve.at(t)[0], curve.at(t + 0.25)[0]] for t in starts]
-    np.testing.assert_allclose(quarters.ends, expected, atol=1e-12)
+    parts = cell.parts().parts()
+    expected = [curve.at(29.5 + k / 64)[0] for k in range(65)]
+    np.testing.assert_allclose(parts.ends[:, 0], expected[:-1], atol=1e-12)
+    np.testing.assert_allclose(parts.ends[:, 1], expected[1:], atol=1e-12)
 
 
 @given(convergent_members(), SEEDS)
@@ -44,9 +44,9 @@ def test_upper_bounds_hold_at_every_depth(parameters, seed):
     cells, curve = cell_of(parameters, seed)
     t = np.arange(29.5 * 64, 30.5 * 64 + 1) / 64
     highest = max(curve.at(x)[0] for x in t)
-    for _ in range(4):
+    for _ in range(3):
         assert cells.upper(cells.ends).max() >= highest - 1e-12
-        cells = cells.halves()
+        cells = cells.parts()
 
 
 @given(convergent_members(["translated"]), SEEDS)
@@ -73,3 +73,19 @@ def test_negative_functions_have_the_maximum_zero_of_their_surroundings():
     found = maximum(Cells(mask, -np.ones((1, mask.end - mask.start))))
     assert found.lower == 0
     assert found.upper == pytest.approx(0, abs=1e-12)
+
+
+@given(convergent_members())
+def test_the_parts_of_a_window_draw_the_same_curve(member):
+    from_span, from_cell = refinements(member.mask)
+    basis = BasicLimitFunction(member.mask)
+    width = len(from_cell)
+    window = np.random.default_rng(1).normal(size=width + 1)
+    parts = (window @ from_span).reshape(8, width)
+    expected = window @ basis.span_table(5)
+    drawn = (parts @ basis.cell_table(2))[:, :-1].ravel()
+    np.testing.assert_allclose(drawn, expected[:-1], atol=1e-12)
+    parts = (window[:-1] @ from_cell).reshape(8, width)
+    expected = window[:-1] @ basis.cell_table(5)
+    drawn = (parts @ basis.cell_table(2))[:, :-1].ravel()
+    np.testing.assert_allclose(drawn, expected[:-1], atol=1e-12)

@@ -1,9 +1,14 @@
+from threading import Event, current_thread
+
 import numpy as np
 import pytest
 
+from app import status as status_module
+from app.analysis import Finding
 from app.opening import ready_document
 from app.session import Session
 from app.status import HELD_POINTS, SIZE_LEVEL, StatusBar, drawn_size
+from core.continuity import smoothness
 from core.document import Curve, Document
 from core.errors import NoLimitError
 from core.family import PRESETS
@@ -15,7 +20,8 @@ from core.limit import LimitCurve
 def bar(qtbot):
     bar = StatusBar(Session(ready_document()))
     qtbot.addWidget(bar)
-    return bar
+    yield bar
+    bar.stop()
 
 
 def test_the_size_is_that_of_the_curve_and_not_of_the_polygon(tmp_path):
@@ -99,15 +105,58 @@ def test_a_sentence_takes_the_place_of_the_hint_for_a_while(qtbot):
     assert bar.hint.text() == "Drag a point"
 
 
-def test_the_size_of_a_long_drawing_waits_for_the_end_of_a_drag(qtbot):
+@pytest.fixture
+def long_bar(qtbot):
+    """Bar of a drawing that is measured in the background."""
     angle = np.linspace(0, 6, HELD_POINTS + 1)
-    session = Session(Document((Curve(np.stack([np.cos(angle), np.sin(angle)], axis=1)),)))
-    bar = StatusBar(session)
+    bar = StatusBar(Session(Document((Curve(np.stack([np.cos(angle), np.sin(angle)], axis=1)),))))
     qtbot.addWidget(bar)
-    before = bar.size_label.text()
+    qtbot.waitUntil(lambda: bar.size_label.text() != "")
+    yield bar
+    bar.stop()
+
+
+def test_the_size_of_a_long_drawing_waits_for_the_end_of_a_drag(qtbot, long_bar):
+    before, session = long_bar.size_label.text(), long_bar._session
     session.begin("Move point")
     session.adjust(session.document.with_curve(0, session.document.curves[0].moved([9], (50, 0))))
-    bar._on_rest()
-    assert bar.size_label.text() == before
+    long_bar._on_rest()
+    assert long_bar.size_label.text() == before
     session.commit()
-    qtbot.waitUntil(lambda: bar.size_label.text() != before)
+    qtbot.waitUntil(lambda: long_bar.size_label.text() != before)
+
+
+def test_a_long_drawing_is_measured_outside_the_window_s_thread(qtbot, long_bar, monkeypatch):
+    threads = []
+    monkeypatch.setattr(
+        status_module, "drawn_size", lambda document: threads.append(current_thread())
+    )
+    long_bar.measure()
+    qtbot.waitUntil(lambda: len(threads) == 1)
+    assert threads[0] is not current_thread()
+
+
+def test_a_size_that_is_out_of_date_is_not_shown(qtbot, long_bar, monkeypatch):
+    gate, original = Event(), drawn_size
+
+    def slow(document):
+        assert gate.wait(10)
+        return original(document)
+
+    monkeypatch.setattr(status_module, "drawn_size", slow)
+    shown = []
+    long_bar._measurer.done.connect(shown.append)
+    long_bar.measure()
+    session = long_bar._session
+    moved = session.document.with_curve(0, session.document.curves[0].moved([9], (50, 0)))
+    session.edit(moved, "Move point")
+    gate.set()
+    qtbot.waitUntil(lambda: len(shown) > 0)
+    assert shown == [pytest.approx(original(moved))]
+
+
+def test_the_bar_keeps_its_height_when_the_class_is_known(qtbot, bar):
+    bar.show()
+    before = bar.sizeHint().height(), bar.proof.sizeHint().height()
+    bar.show_finding(Finding(PRESETS["Calm"], smoothness(PRESETS["Calm"].mask)))
+    assert (bar.sizeHint().height(), bar.proof.sizeHint().height()) == before

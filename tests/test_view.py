@@ -12,9 +12,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from core.affine import Affine
-from core.basis import BasicLimitFunction
 from core.blocks import Blocks
-from core.chords import cell_constant, chord_constant
+from core.chords import chord_constant
 from core.document import Curve
 from core.errors import NoLimitError
 from core.family import PRESETS, Parameters
@@ -23,7 +22,7 @@ from core.live import LiveCurve
 from core.picking import nearest_point
 from core.pyramid import CurvePyramid, PolygonPyramid
 from core.runs import Runs
-from core.view import refinements, view
+from core.view import view
 from oracles import convergent_members
 
 MEMBERS = [*PRESETS.values(), Parameters("1/10", -1, "-1/10", "mirrored")]
@@ -200,25 +199,6 @@ def test_a_moved_point_is_seen_where_it_went() -> None:
     seen = view(pyramid, place - 20, place + 20, 0.25)
     assert len(seen.vertices) > 2
     assert true_error(LimitCurve(live.control_points, live.mask, True), seen) <= 0.25
-
-
-@members
-def test_the_parts_of_a_window_draw_the_same_curve(member: Parameters) -> None:
-    from_span, from_cell = refinements(member.mask)
-    basis = BasicLimitFunction(member.mask)
-    width = len(from_cell)
-    window = np.random.default_rng(1).normal(size=width + 1)
-    parts = (window @ from_span).reshape(8, width)
-    expected = window @ basis.span_table(5)
-    np.testing.assert_allclose(
-        (parts @ basis.cell_table(2))[:, :-1].ravel(), expected[:-1], atol=1e-13
-    )
-    parts = (window[:-1] @ from_cell).reshape(8, width)
-    expected = window[:-1] @ basis.cell_table(5)
-    np.testing.assert_allclose(
-        (parts @ basis.cell_table(2))[:, :-1].ravel(), expected[:-1], atol=1e-13
-    )
-    assert cell_constant(member.mask) > 0
 
 
 @pytest.mark.parametrize("zoom", [1.0, 5.0, 30.0, 1e3, 1e6])

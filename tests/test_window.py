@@ -30,7 +30,7 @@ from app.style import DARK, LIGHT, palette_of
 from app.theme import window_palette
 from app.window import MainWindow
 from core.chords import COARSE_LEVEL
-from core.continuity import smoothness
+from core.continuity import Effort, smoothness
 from core.document import Curve, Document
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
@@ -588,8 +588,8 @@ def test_nothing_is_cut_in_the_scheme_panel(qtbot, window):
 def test_no_work_outlives_the_window(qtbot, window, answers, monkeypatch):
     begun, ended = Event(), []
 
-    def endless(mask, narrow=False, cancelled=None):
-        if narrow:
+    def endless(mask, effort=Effort.QUICK, cancelled=None):
+        if effort is Effort.FULL:
             begun.set()
             while not cancelled():
                 pass
