@@ -79,8 +79,10 @@ class LimitCurve:
         self.mask = mask
         self._basis = BasicLimitFunction(mask, self._IS_EXACT)
         self._coordinates = coordinates
-        # One view for many products: to make it costs more than a small one.
-        self._windows = _windows(coordinates, mask.end - mask.start + 1, self.spans)
+        # Views for many products: to make one costs more than a small product.
+        reads = mask.end - mask.start
+        self._windows = _windows(coordinates, reads + 1, self.spans)
+        self._cells = _windows(coordinates, reads, self.spans + 1)
 
     @property
     def endless_points(self) -> NDArray[np.float64]:
@@ -113,10 +115,15 @@ class LimitCurve:
         polygon = self.control_points
         if self.spans == 0:
             return polygon.copy()
-        count = self.spans << level
-        curve = np.empty((2, count if self.closed else count + 1))
-        table = self._basis.table(level)
-        _multiply(self._windows, table, curve[:, :count].reshape(2, self.spans, -1))
+        if level == 0:
+            curve = _product(self._windows, self._basis.table(0))[:, :, 0]
+            if not self.closed:
+                curve = np.concatenate([curve, polygon[-1:].T], axis=1)
+        else:
+            # Cells read one point less than spans do; the first begins half a span before t = 0.
+            cells = _product(self._cells, self._basis.cell_table(level)[:, :-1]).reshape(2, -1)
+            first = 2 ** (level - 1)
+            curve = cells[:, first : first + (self.spans << level) + (not self.closed)]
         if not self.closed:
             # The end rules hold up to rounding; a contour has to end exactly where it was told to.
             curve[:, 0], curve[:, -1] = polygon[0], polygon[-1]
@@ -165,10 +172,7 @@ class LimitCurve:
             value of a span is, up to rounding, the first of the next.
         """
         _check_level(level)
-        windows = self._windows[:, :, spans]
-        count = windows.shape[2]
-        points = np.empty((2, count, 2**level + 1))
-        _multiply(windows, self._basis.span_table(level, order), points)
+        points = _product(self._windows[:, :, spans], self._basis.span_table(level, order))
         if order == 0 and not self.closed:
             self._pin_ends(points, spans)
         return points.transpose(1, 2, 0)
@@ -239,16 +243,17 @@ def _windows(coordinates: NDArray[np.float64], size: int, spans: int) -> NDArray
     )
 
 
-def _multiply(
-    windows: NDArray[np.float64], table: NDArray[np.float64], out: NDArray[np.float64]
-) -> None:
-    """Write ``out[c, k, m] = sum_r windows[r, c, k] table[r, m]``, in chunks when there is much."""
+def _product(windows: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.float64]:
+    """``out[c, k, m] = sum_r windows[r, c, k] table[r, m]``, in chunks where there is much."""
     size, _, count = windows.shape
-    step = count if count * table.shape[1] <= _WHOLE else _CHUNK
-    held = np.empty((size, 2, min(step, count)))
-    for begin in range(0, count, max(step, 1)):
-        part = windows[:, :, begin : begin + step]
-        # Rows of the copy are runs of the windows: sixty times less to read than to multiply.
+    # Rows of a copy are runs of the windows: sixty times less to read than to multiply.
+    if count * table.shape[1] <= _WHOLE:
+        return (windows.reshape(size, -1).T @ table).reshape(2, count, -1)
+    out = np.empty((2, count, table.shape[1]))
+    held = np.empty((size, 2, _CHUNK))
+    for begin in range(0, count, _CHUNK):
+        part = windows[:, :, begin : begin + _CHUNK]
         factor = held[:, :, : part.shape[2]]
         np.copyto(factor, part)
-        np.matmul(factor.transpose(1, 2, 0), table, out=out[:, begin : begin + step])
+        np.matmul(factor.transpose(1, 2, 0), table, out=out[:, begin : begin + _CHUNK])
+    return out
