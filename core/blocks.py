@@ -113,9 +113,9 @@ class Blocks:
             self.update([0, self.spans])
 
     def knots(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Points of the polygon that cut some nodes into their children, shape (2, m, 9)."""
+        """Points of the polygon that cut some nodes into their children, shape (2, 9, m)."""
         size: int = FAN**level
-        places = np.minimum(size * (FAN * nodes[:, None] + np.arange(FAN + 1)), self.spans)
+        places = np.minimum(size * (FAN * nodes + np.arange(FAN + 1)[:, None]), self.spans)
         return self.curve.padded[:, SIDE + places]
 
     def _update(self, touched: Iterable[range]) -> None:
@@ -171,7 +171,7 @@ class Blocks:
     def _write_nodes(self, level: int, nodes: NDArray[np.intp]) -> None:
         children = (FAN * nodes[:, None] + np.arange(FAN)).ravel()
         largest = folded(np.maximum, self.deviations[level - 1][children])
-        away = from_chords(self.knots(level, nodes)).max(axis=1)
+        away = from_chords(self.knots(level, nodes).transpose(0, 2, 1)).max(axis=1)
         self.boxes[level][:, nodes] = folded(np.minimum, self.boxes[level - 1][:, children])
         self.deviations[level][nodes] = largest + away
         self.bends[level][:, nodes] = folded(np.maximum, self.bends[level - 1][:, children])
@@ -205,8 +205,22 @@ def from_chords(points: NDArray[np.float64]) -> NDArray[np.float64]:
     ndarray
         Shape (..., r - 2).
     """
-    x, y = points[..., 1:-1] - points[..., :1]
-    way_x, way_y = points[..., -1:] - points[..., :1]
+    return from_segments(points[..., 1:-1] - points[..., :1], points[..., -1:] - points[..., :1])
+
+
+def from_segments(
+    offsets: NDArray[np.float64], ways: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Distances of places from segments, both seen from where the segments start.
+
+    Parameters
+    ----------
+    offsets
+        The places, shape (2, ...); they are overwritten.
+    ways
+        The ends of the segments, of a shape that broadcasts.
+    """
+    (x, y), (way_x, way_y) = offsets, ways
     length = way_x * way_x + way_y * way_y
     share = (x * way_x + y * way_y) / np.where(length > 0, length, 1.0)
     np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share)

@@ -70,7 +70,8 @@ class Pyramid(ABC):
         Returns
         -------
         ends, margins
-            Shapes (2, m, 9) and (2, m, 8). Spans beyond the end of the curve are points.
+            Shapes (2, 9, m) and (2, 8, m): the blocks lie along the last axis, where loops are
+            long. Spans beyond the end of the curve are points.
         """
 
 
@@ -103,10 +104,10 @@ class CurvePyramid(Pyramid):
         self._chord, self._polygon, self._knot = known.chord, known.polygon, known.knot
         self._read = mask.end - mask.start - 1
         self._weights = BasicLimitFunction(mask).table(0)[:-1, 0]
-        # Column s of this matrix makes the curve point s steps on from the points of a block.
-        self._limits = np.zeros((len(self._weights) + FAN, FAN + 1))
+        # Row s of this matrix makes the curve point s steps on from the points of a block.
+        self._limits = np.zeros((FAN + 1, len(self._weights) + FAN))
         for s in range(FAN + 1):
-            self._limits[s : s + len(self._weights), s] = self._weights
+            self._limits[s, s : s + len(self._weights)] = self._weights
 
     def boxes(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
         """See `Pyramid.boxes`."""
@@ -138,14 +139,15 @@ class CurvePyramid(Pyramid):
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """See `Pyramid.spans_of`."""
         coordinates = self.curve.endless_points.T
-        places = FAN * blocks[:, None] + np.arange(len(self._limits))
+        places = FAN * blocks + np.arange(self._limits.shape[1])[:, None]
         held = coordinates[:, np.minimum(places, coordinates.shape[1] - 1)]
-        ends = held @ self._limits
-        margins = self._chord * running_max(bends_of(held), self._read)
+        ends = self._limits @ held
+        bends = running_max(bends_of(held.transpose(0, 2, 1)), self._read)
+        margins = self._chord * bends.transpose(0, 2, 1)
         beyond = self.spans - FAN * int(blocks[-1])
         if beyond < FAN:
-            ends[:, -1, beyond:] = ends[:, -1, beyond : beyond + 1]
-            margins[:, -1, beyond:] = 0.0
+            ends[:, beyond:, -1] = ends[:, beyond : beyond + 1, -1]
+            margins[:, beyond:, -1] = 0.0
         return ends, margins
 
 
@@ -179,8 +181,8 @@ class PolygonPyramid(Pyramid):
 
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """See `Pyramid.spans_of`."""
-        places = np.minimum(FAN * blocks[:, None] + np.arange(FAN + 1), self.spans)
-        return self.places(places), np.zeros((2, len(blocks), FAN))
+        places = np.minimum(FAN * blocks + np.arange(FAN + 1)[:, None], self.spans)
+        return self.places(places), np.zeros((2, FAN, len(blocks)))
 
 
 def running_max(values: NDArray[np.float64], size: int) -> NDArray[np.float64]:

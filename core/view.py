@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from core.affine import IDENTITY, Affine
 from core.basis import BasicLimitFunction
-from core.blocks import FAN, bends_of, boxes_of, from_chords
+from core.blocks import FAN, bends_of, boxes_of, from_segments
 from core.cells import STEP, refinements
 from core.chords import cell_constant, second_difference_norm
 from core.limit import LimitCurve
@@ -108,7 +108,7 @@ def _descend(
     found.deviation = max(found.deviation, float(deviations[straight].max(initial=0.0)))
     nodes = nodes[~straight]
     while len(nodes):
-        children = FAN * nodes[:, None] + np.arange(FAN)
+        children = FAN * nodes + np.arange(FAN)[:, None]
         size //= FAN
         parts = _below(pyramid, level, nodes, children)
         seen = meets(parts.boxes, limits) & (size * children < total)
@@ -119,25 +119,25 @@ def _descend(
         taken = seen & ~bent
         found.deviation = max(found.deviation, float(deviations[taken].max(initial=0.0)))
         _join(found, children, taken, parts, tolerance, size, total)
-        nodes = children[bent]
+        nodes = children.T[bent.T]
         if not level:
-            return nodes, deviations[bent]
+            return nodes, deviations.T[bent.T]
         level -= 1
     return nodes, np.zeros(0)
 
 
 @dataclass(frozen=True, eq=False)
 class _Parts:
-    """What is known of the eight parts of some nodes, each shape (..., m, 8).
+    """What is known of the eight parts of some nodes; the nodes lie along the last axis.
 
     Attributes
     ----------
     knots
-        Where the polygon is cut, or for single spans the curve itself, shape (2, m, 9).
+        Where the polygon is cut, or for single spans the curve itself, shape (2, 9, m).
     deviations, slack
-        As in `core.pyramid.Pyramid`.
+        As in `core.pyramid.Pyramid`, shape (8, m).
     boxes
-        Shape (4, m, 8).
+        Shape (4, 8, m).
     """
 
     knots: NDArray[np.float64]
@@ -159,7 +159,7 @@ def _below(
             pyramid.boxes(level - 1, flat).reshape(4, *shape),
         )
     ends, margins = pyramid.spans_of(nodes)
-    starts, stops = ends[:, :, :-1], ends[:, :, 1:]
+    starts, stops = ends[:, :-1], ends[:, 1:]
     boxes = np.empty((4, *starts.shape[1:]))
     np.subtract(np.minimum(starts, stops), margins, out=boxes[:2])
     np.subtract(-np.maximum(starts, stops), margins, out=boxes[2:])
@@ -176,28 +176,28 @@ def _join(
     size: int,
     total: int,
 ) -> None:
-    """Add chords over children (m, 8), over four or two at once where they keep the tolerance."""
-    left = taken
-    for step in (4, 2, 1):
-        groups = left.reshape(-1, FAN // step, step)
-        rows, group = np.nonzero(groups.all(axis=2))
-        if not len(rows):
+    """Add chords over children (8, m), over four or two at once where they keep the tolerance."""
+    left, firsts, afters = taken, [], []
+    for step in (4, 2):
+        groups = left.reshape(FAN // step, step, -1)
+        good = groups.all(axis=1)
+        if not good.any():
             continue
-        place = step * group
-        if step > 1:
-            # In memory the groups lie along the last axis, where loops are long.
-            inner = parts.knots[:, rows, place + np.arange(step + 1)[:, None]]
-            bounds = from_chords(inner.transpose(0, 2, 1)).max(axis=1)
-            for share in (parts.deviations, parts.slack):
-                bounds += share.reshape(groups.shape)[rows, group].max(axis=1)
-            good = bounds <= tolerance
-            rows, group, place, bounds = rows[good], group[good], place[good], bounds[good]
-            found.deviation = max(found.deviation, float(bounds.max(initial=0.0)))
-            groups = groups.copy()
-            groups[rows, group] = False
-        first = children[rows, place]
-        found.add_parts(np.minimum(size * np.stack([first, first + step]), total))
-        left = groups.reshape(left.shape)
+        starts = parts.knots[:, :-1:step]
+        inner = parts.knots[:, :-1].reshape(2, *groups.shape)[:, :, 1:] - starts[:, :, None]
+        ways = parts.knots[:, step::step] - starts
+        bounds = from_segments(inner, ways[:, :, None]).max(axis=1)
+        for share in (parts.deviations, parts.slack):
+            bounds += share.reshape(groups.shape).max(axis=1)
+        good &= bounds <= tolerance
+        found.deviation = max(found.deviation, float(bounds[good].max(initial=0.0)))
+        first = children[::step][good]
+        firsts.append(first)
+        afters.append(first + step)
+        left = (groups & ~good[:, None]).reshape(left.shape)
+    first = children[left]
+    times = np.concatenate([*firsts, first, *afters, first + 1]).reshape(2, -1)
+    found.add_parts(np.minimum(size * times, total))
 
 
 def _subdivide(
