@@ -130,8 +130,7 @@ class Figure:
 
     def touched(self, indices: NDArray[np.intp]) -> tuple[range, ...]:
         """Spans that read some control points, as `core.live.LiveCurve.move` tells them."""
-        # A move to where they are changes nothing.
-        return self._live.move(indices, self._live.control_points[indices])
+        return self._live.reading(indices)
 
     def _settle(self) -> None:
         """Bring the levels of detail up to date."""

@@ -15,6 +15,7 @@ from PySide6.QtCore import (
     QPersistentModelIndex,
     QSize,
     Qt,
+    QTimer,
     Signal,
 )
 from PySide6.QtWidgets import (
@@ -55,6 +56,10 @@ Index = QModelIndex | QPersistentModelIndex
 
 TOLD_ROWS: Final = 64
 """Number of changed rows up to which each is told to the table by itself."""
+
+TELLING_MS: Final = 50
+"""While a hand moves points, the table follows so often: nobody could read more, and painting it
+each time would cost the curve a tenth of its speed."""
 
 RIGHT: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 """Where a coordinate stands in its cell."""
@@ -116,7 +121,7 @@ class CurvesPanel(QWidget):
             self._show()
 
     def _on_changed(self, old: Document, new: Document) -> None:
-        if _labels(old) != _labels(new):
+        if not new.lists_as(old):
             self._show()
 
     def _on_selected(self, old: Selection, new: Selection) -> None:
@@ -163,7 +168,11 @@ class PointsModel(QAbstractTableModel):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._curve = self._present()
+        self._curve = self._told = self._present()
+        self._telling = QTimer(self)
+        self._telling.setSingleShot(True)
+        self._telling.setInterval(TELLING_MS)
+        self._telling.timeout.connect(self._tell_changes)
         session.changed.connect(lambda _old, _new: self._follow())
         session.selection_changed.connect(lambda _old, _new: self._follow())
 
@@ -177,15 +186,22 @@ class PointsModel(QAbstractTableModel):
             return
         if old is not None and new is not None and old.count == new.count:
             self._curve = new
-            self._tell_changes(old, new)
+            if not self._session.in_gesture:
+                self._tell_changes()
+            elif not self._telling.isActive():
+                self._telling.start()
         else:
             self.beginResetModel()
-            self._curve = new
+            self._curve = self._told = new
             self.endResetModel()
 
-    def _tell_changes(self, old: Curve, new: Curve) -> None:
+    def _tell_changes(self) -> None:
         """Have the rows that changed shown anew: the table asks only for those in view."""
-        changed = old.differences(new)
+        old, new, self._told = self._told, self._curve, self._curve
+        if old is None or new is None or old is new:
+            return
+        # Beyond a move of all points together nothing may have changed.
+        changed = old.differences(new) if old.placed is new.placed else None
         if changed is None or len(changed) > TOLD_ROWS:
             rows = [(0, self.rowCount() - 1)]
         else:
@@ -349,10 +365,6 @@ class PointsPanel(QWidget):
 def shown_length(value: float) -> str:
     """A length in mm as it is shown in tables: micrometres, with a true minus sign."""
     return f"{value:.{SHOWN_DECIMALS}f}".replace("-", "\N{MINUS SIGN}")
-
-
-def _labels(document: Document) -> list[tuple[str, bool, int]]:
-    return [(curve.name, curve.closed, curve.count) for curve in document.curves]
 
 
 def _described(curve: Curve) -> str:

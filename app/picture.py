@@ -145,7 +145,7 @@ class Picture:
         for index, ghost in scene.ghosts.items():
             put((Layer.GHOST, index), _ghost, ghost)
         self._put_curves(put, setting, scene, selection)
-        for layer, ink in _overlay(setting.palette, scene, overlay):
+        for layer, ink in _overlay(setting, scene, overlay):
             self.things[layer, 0] = ink
         for layer, text in ((Layer.HINT, hint), (Layer.NOTICE, notice)):
             if text:
@@ -270,15 +270,16 @@ def _selected(setting: Setting, drawn: Drawn, chosen: NDArray[np.intp]) -> Ink |
     return Handles(chosen[seen], places_px[seen], colour, colour, radius, setting.ratio)
 
 
-def _overlay(palette: Palette, scene: Scene, overlay: Overlay) -> list[tuple[Layer, Ink]]:
+def _overlay(setting: Setting, scene: Scene, overlay: Overlay) -> list[tuple[Layer, Ink]]:
     """What the hand adds in front of all curves."""
+    palette, ratio = setting.palette, setting.ratio
     found: list[tuple[Layer, Ink]] = []
     hover, grip = overlay.hover, overlay.grip
     if hover is not None and hover.curve < len(scene.curves):
         drawn = scene.curves[hover.curve]
         if hover.point < drawn.curve.count:
             x, y = drawn.places_px(np.array([hover.point]))[0].tolist()
-            found.append((Layer.HOVER, Ring(x, y, palette.hover)))
+            found.append((Layer.HOVER, Ring(x, y, palette.hover, ratio)))
     if grip is not None and grip.curve < len(scene.curves):
         place = place_of(scene.curves[grip.curve], grip.t)
         if place is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from app.drawn import Drawn
 from app.style import SIZES
+from core.live import LiveCurve
 from core.view import BUDGET
 
 RIBBON_VERTICES: Final = 2048
@@ -37,6 +38,27 @@ class Influence:
     curve: int
     indices: NDArray[np.intp]
     shares: NDArray[np.float64]
+    _along: dict[tuple[object, ...], list[NDArray[np.float64]]] = field(default_factory=dict)
+
+    def along(
+        self, limit: LiveCurve, stretches: list[tuple[NDArray[np.intp], int]]
+    ) -> list[NDArray[np.float64]]:
+        """Share of the hand's move that places on the curve follow, for spans and their levels.
+
+        Where the points are makes no difference, so that a drag asks once.
+        """
+        spans = [(int(chosen[0]), len(chosen), level) for chosen, level in stretches]
+        key = limit.mask, limit.spans, limit.closed, *spans
+        if key not in self._along:
+            self._along.clear()
+            # The curve is linear in its points: what a unit of the hand's way does is its share.
+            places, way = limit.control_points[self.indices], self.shares[:, None] * (1.0, 0.0)
+            before = [_joined(limit.span_points(*stretch))[:, 0] for stretch in stretches]
+            limit.move(self.indices, places + way)
+            after = [_joined(limit.span_points(*stretch))[:, 0] for stretch in stretches]
+            limit.move(self.indices, places)
+            self._along[key] = [np.abs(b - a) for a, b in zip(before, after, strict=True)]
+        return self._along[key]
 
 
 def ribbons(drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
@@ -51,22 +73,16 @@ def ribbons(drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
         return []  # So much of the curve follows that a ribbon would only be a blot.
     placed = drawn.figure.placed
     scale = drawn.camera.scale * placed.stretch
-    pairs = [(spans, _level(limit.span_points(spans, 0), scale)) for spans in touched]
-    centres = [_joined(limit.span_points(*pair)) for pair in pairs]
-    # The curve is linear in its points: what a unit of the hand's way does is its share.
-    places = limit.control_points[indices]
-    limit.move(indices, places + influence.shares[:, None] * (1.0, 0.0))
-    shifted = [_joined(limit.span_points(*pair)) for pair in pairs]
-    limit.move(indices, places)
+    stretches = [(spans, _level(limit.span_points(spans, 0), scale)) for spans in touched]
+    shares = influence.along(limit, stretches)
     ribbons: list[NDArray[np.float64]] = []
-    for centre, after in zip(centres, shifted, strict=True):
-        share = np.abs(after[:, 0] - centre[:, 0])
-        line = drawn.camera.to_pixels(placed(centre))
+    for stretch, share in zip(stretches, shares, strict=True):
+        line = drawn.camera.to_pixels(placed(_joined(limit.span_points(*stretch))))
         strong = np.flatnonzero(share > FAINT)
         ribbons.extend(
-            _ribbon(line[stretch], share[stretch])
-            for stretch in np.split(strong, np.flatnonzero(np.diff(strong) > 1) + 1)
-            if len(stretch) > 1
+            _ribbon(line[part], share[part])
+            for part in np.split(strong, np.flatnonzero(np.diff(strong) > 1) + 1)
+            if len(part) > 1
         )
     return ribbons
 

@@ -34,7 +34,7 @@ class Selection:
 
     def within(self, document: Document) -> Selection:
         """The part of the selection that exists in a document."""
-        sizes = _sizes(document)
+        sizes = [curve.count for curve in document.curves]
         points = self.points.within(sizes)
         curve = min(self.curve, max(len(sizes) - 1, 0))
         kept = points is self.points and curve == self.curve
@@ -67,6 +67,7 @@ class Session(QObject):
         self._saved = self._history.document
         self._path: Path | None = None
         self._selection = Selection()
+        self._told: tuple[object, ...] = ()
 
     @property
     def document(self) -> Document:
@@ -130,7 +131,7 @@ class Session(QObject):
     def commit(self) -> None:
         """Close the gesture and keep what it did."""
         self._history.commit()
-        self.status_changed.emit()
+        self._tell()
 
     def cancel(self) -> None:
         """Close the gesture and restore the document that it began with."""
@@ -169,16 +170,29 @@ class Session(QObject):
         """Take note that the present document is what the file holds."""
         self._path = path
         self._saved = self.document
-        self.status_changed.emit()
+        self._tell()
 
     def _announce(self, old: Document) -> None:
-        if old is not self.document:
-            if _sizes(old) != _sizes(self.document):
+        new = self.document
+        is_listed = new.lists_as(old)
+        if old is not new:
+            if not is_listed:
                 self.select(self._selection)
-            self.changed.emit(old, self.document)
+            self.changed.emit(old, new)
+        # The moves of a drag change nothing of this: each would have a window's actions looked at.
+        if self._status != self._told or not (is_listed and _are_named_alike(old, new)):
+            self._tell()
+
+    @property
+    def _status(self) -> tuple[object, ...]:
+        return self.undo_name, self.redo_name, self.is_modified, self.path, self.in_gesture
+
+    def _tell(self) -> None:
+        self._told = self._status
         self.status_changed.emit()
 
 
-def _sizes(document: Document) -> list[int]:
-    """Number of points of each curve: as long as they stay, so does a selection."""
-    return [curve.count for curve in document.curves]
+def _are_named_alike(old: Document, new: Document) -> bool:
+    """Whether two documents are drawn by schemes that a menu cannot tell apart."""
+    one, two = old.parameters, new.parameters
+    return one is two or (one.name, one.neighbours) == (two.name, two.neighbours)

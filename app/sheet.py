@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QRegion, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
@@ -56,6 +56,7 @@ class Sheet(QWidget):
     """
 
     zoom_changed = Signal(float)
+    _due = Signal()
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -75,10 +76,8 @@ class Sheet(QWidget):
         self._is_taught = session.undo_name is not None
         self._mouse: QPointF | None = None
         self._marked: QPointF | None = None
-        self._redraw = QTimer(self)
-        self._redraw.setSingleShot(True)
-        self._redraw.setInterval(0)
-        self._redraw.timeout.connect(self._draw)
+        self._is_due = False
+        self._due.connect(self._draw, Qt.ConnectionType.QueuedConnection)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setMinimumSize(160, 120)
         session.changed.connect(self._on_changed)
@@ -163,8 +162,7 @@ class Sheet(QWidget):
     def refresh(self) -> None:
         """Draw anew, once, when the events that wait have been dealt with."""
         self._is_stale = True
-        if not self._redraw.isActive():
-            self._redraw.start()
+        self._draw_soon()
 
     def show_notice(self, sentence: str) -> None:
         """Show a sentence that stays above the drawing, such as a warning, or none."""
@@ -175,12 +173,11 @@ class Sheet(QWidget):
     def mark_mouse(self, position: QPointF | None) -> None:
         """Mark a place on the rulers, or none."""
         self._mouse = position
-        if not self._redraw.isActive():
-            self._redraw.start()
+        self._draw_soon()
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:
-        if self._redraw.isActive() or self._ground[:1] != (self._present_setting(),):
+        if self._is_due or self._ground[:1] != (self._present_setting(),):
             # What differs outside of the event's region is painted by the next event.
             self._renew()
         content = self._content()
@@ -271,8 +268,19 @@ class Sheet(QWidget):
             self._show_polygon,
         )  # fmt: skip
 
+    def _draw_soon(self) -> None:
+        """Draw once the input that waits has been dealt with, and before anything is painted.
+
+        A timer would come after that: labels that follow the mouse would be painted and handed to
+        the screen first, and the canvas in a second turn.
+        """
+        if not self._is_due:
+            self._is_due = True
+            self._due.emit()
+
     def _draw(self) -> None:
         """Have painted what differs from what is shown; without a difference, nothing."""
+        self._is_due = False
         self._renew()
 
     def _renew(self) -> None:

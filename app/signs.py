@@ -91,11 +91,8 @@ class Handles(_Points):
 
     def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
         places = self.places[meeting(self._boxes, region, self.reach)]
-        pixmap = _handle(self.rim, self.fill, self.radius, self.ratio)
-        half = pixmap.width() / self.ratio / 2
-        corners = np.rint((places - half) * self.ratio) / self.ratio
-        for x, y in corners.tolist():
-            painter.drawPixmap(QPointF(x, y), pixmap)
+        pixmap = _disc(self.rim, 1.0, SIZES.rim_width, self.fill, self.radius, self.ratio)
+        _stamp(painter, pixmap, places)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,20 +119,22 @@ class Dots(_Points):
 
 @dataclass(frozen=True)
 class Ring(Ink):
-    """A ring around the control point that a press would take."""
+    """A ring around the control point that a press would take, on whole device pixels as it is."""
 
     x: float
     y: float
     colour: str
+    ratio: float
 
     @property
     def box(self) -> Box:
-        return _square(self.x, self.y, SIZES.point_radius + _RING_GAP + _RING_WIDTH / 2)
+        # Half of the picture, and the way to whole pixels.
+        return _square(self.x, self.y, SIZES.point_radius + _RING_GAP + _RING_WIDTH / 2 + 1.5)
 
     def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
         radius = SIZES.point_radius + _RING_GAP
-        painter.setPen(QPen(color(self.colour, 0.35), _RING_WIDTH))
-        painter.drawEllipse(point_of(np.array([self.x, self.y])), radius, radius)
+        pixmap = _disc(self.colour, 0.35, _RING_WIDTH, None, radius, self.ratio)
+        _stamp(painter, pixmap, np.array([[self.x, self.y]]))
 
 
 @dataclass(frozen=True)
@@ -164,17 +163,28 @@ def _square(x: float, y: float, reach: float) -> Box:
     return x - reach, y - reach, x + reach, y + reach
 
 
+def _stamp(painter: QPainter, pixmap: QPixmap, places: NDArray[np.float64]) -> None:
+    """Put a picture's middle on some places, and its corner on whole device pixels."""
+    ratio = pixmap.devicePixelRatioF()
+    corners = np.rint((places - pixmap.width() / ratio / 2) * ratio) / ratio
+    for x, y in corners.tolist():
+        painter.drawPixmap(QPointF(x, y), pixmap)
+
+
 @lru_cache(maxsize=32)
-def _handle(rim: str, fill: str, radius: float, ratio: float) -> QPixmap:
-    """Picture of a control point, drawn once for each colour, size and screen."""
-    side = 2 * int(np.ceil(radius + SIZES.rim_width)) + 1
+def _disc(
+    rim: str, opacity: float, width: float, fill: str | None, radius: float, ratio: float
+) -> QPixmap:
+    """Picture of a disc, or of a ring, drawn once for each colour, size and screen."""
+    side = 2 * int(np.ceil(radius + width)) + 1
     pixmap = QPixmap(round(side * ratio), round(side * ratio))
     pixmap.setDevicePixelRatio(ratio)
     pixmap.fill(Qt.GlobalColor.transparent)
     with QPainter(pixmap) as painter:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(color(rim), SIZES.rim_width))
-        painter.setBrush(color(fill))
+        painter.setPen(QPen(color(rim, opacity), width))
+        if fill is not None:
+            painter.setBrush(color(fill))
         middle = side / 2
         painter.drawEllipse(QPointF(middle, middle), radius, radius)
     return pixmap

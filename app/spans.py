@@ -37,13 +37,13 @@ def span_vertices(
     mask = limit.mask
     reads = mask.end - mask.start + 1
     windows = limit.endless_points[spans.start : spans.stop + reads - 1]
-    bends = np.hypot(*np.diff(windows, n=2, axis=0).T)
+    steps = windows[1:] - windows[:-1]
+    bends = np.hypot(*(steps[1:] - steps[:-1]).T)
     bounds = chord_constant(mask) * running_max(bends, reads - 2)
     shrinking = [second_difference_norm(mask, level) for level in range(1, FINEST + 1)]
     if bounds.max() * shrinking[-1] > tolerance:
         return None
-    steps = np.concatenate([[1.0], shrinking])
-    levels = (bounds[:, None] * steps > tolerance).sum(axis=1)
+    levels = (bounds[:, None] * [1.0, *shrinking] > tolerance).sum(axis=1)
     sizes = 1 << levels
     offsets = np.concatenate([[0], np.cumsum(sizes)])
     t, points = np.empty(offsets[-1] + 1), np.empty((offsets[-1] + 1, 2))

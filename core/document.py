@@ -196,7 +196,9 @@ class Curve:
         """Positions of the points at ``indices`` (k,), shape (k, 2)."""
         chosen = np.asarray(indices, dtype=np.intp)
         moves = self._moves
-        positions: NDArray[np.float64] = moves.placed(moves.base.points[chosen])
+        positions: NDArray[np.float64] = moves.base.points[chosen]
+        if moves.placed is not IDENTITY:
+            positions = moves.placed(positions)
         if len(moves.indices):
             found = np.minimum(np.searchsorted(moves.indices, chosen), len(moves.indices) - 1)
             moved = moves.indices[found] == chosen
@@ -248,6 +250,13 @@ class Document:
         object.__setattr__(self, "profiles", tuple(self.profiles))
         if len({profile.name for profile in self.profiles}) < len(self.profiles):
             raise NinepointError("Two export profiles of the drawing have the same name.")
+
+    def lists_as(self, other: Document) -> bool:
+        """Whether it has as many curves, each of the same name, kind and number of points."""
+        return len(self.curves) == len(other.curves) and all(
+            one is two or (one.count, one.closed, one.name) == (two.count, two.closed, two.name)
+            for one, two in zip(self.curves, other.curves, strict=True)
+        )
 
     def with_profile(self, profile: Profile) -> Document:
         """Copy with an export profile, in place of one of the same name."""

@@ -168,7 +168,7 @@ class Parameters:
             return self
         return Parameters(self.gamma, self.beta, self.alpha, self.neighbours)
 
-    @property
+    @cached_property
     def name(self) -> str | None:
         """Name of the preset that this member is, or None."""
         for name, preset in PRESETS.items():

@@ -80,16 +80,21 @@ class LiveCurve(LimitCurve):
         moved = np.asarray(indices, dtype=np.intp)
         points = self._points
         points[moved] = positions
+        if moved.size:
+            if len(points) >= far(_SIDES):
+                self._store[:, SIDE + moved] = points[moved].T
+            if len(points) < far(_SIDES) or any(self._at_ends(moved)):
+                self._write_ends(self.mask)
+        return self.reading(moved)
+
+    def reading(self, indices: ArrayLike) -> tuple[range, ...]:
+        """Spans that read some control points, as `move` tells them."""
+        moved, count = np.asarray(indices, dtype=np.intp), len(self._points)
         if moved.size == 0:
             return ()
-        count = len(points)
         if count < far(_SIDES):
-            self._write_ends(self.mask)
             return (range(self.spans),) if self.spans else ()
-        self._store[:, SIDE + moved] = points[moved].T
-        at_start, at_end = moved.min() <= SIDE, moved.max() >= count - 1 - SIDE
-        if at_start or at_end:
-            self._write_ends(self.mask)
+        at_start, at_end = self._at_ends(moved)
         if moved.size > _MANY_SHARE * count:
             return (range(self.spans),)
         left, right = reach(self.mask)
@@ -101,6 +106,10 @@ class LiveCurve(LimitCurve):
             if at_end:
                 touched.append((count - 2 - right, self.spans))
         return within(touched, self.spans, self.closed)
+
+    def _at_ends(self, moved: NDArray[np.intp]) -> tuple[bool, bool]:
+        """Whether points lie so near the start, or the end, that phantom points follow them."""
+        return bool(moved.min() <= SIDE), bool(moved.max() >= len(self._points) - 1 - SIDE)
 
     def _write_ends(self, mask: Mask) -> None:
         points, store = self._points, self._store

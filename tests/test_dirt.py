@@ -261,8 +261,8 @@ def test_a_region_holds_each_pixel_that_a_box_touches():
 
 
 def test_things_that_are_the_same_leave_no_dirt():
-    ring, other = Ring(50, 50, "#000000"), Ring(60, 50, "#000000")
-    assert dirt({(1, 0): ring}, {(1, 0): Ring(50, 50, "#000000")}) == []
+    ring, other = Ring(50, 50, "#000000", 1.0), Ring(60, 50, "#000000", 1.0)
+    assert dirt({(1, 0): ring}, {(1, 0): Ring(50, 50, "#000000", 1.0)}) == []
     key = (1, 0)
     for before, now in (({key: ring}, {key: other}), ({key: ring}, {}), ({}, {key: ring})):
         (box,) = merged(dirt(before, now))

@@ -33,7 +33,7 @@ def things():
     yield "huge area", Area(1e5 * (curve(50).vertices - 100.0), ink, 0.34)
     yield "handles", Handles(names, places, ink, "#ffffff", 3.5, 1.0)
     yield "dots", Dots(names, places, ink)
-    yield "ring", Ring(50.3, 60.8, ink)
+    yield "ring", Ring(50.3, 60.8, ink, 1.0)
     yield "grip", Grip(50.3, 60.8, ink, "#ffffff")
     yield "band", Band(30.5, 40.2, 150.9, 170.0, ink)
     yield "words", Words("Words", QFont(), (50.5, 60.0, 150.0, 90.0), ink, LIGHT)
@@ -109,7 +109,7 @@ def others():
     yield THINGS["dots"], Dots(kept, moved[kept], ink)
     yield THINGS["band"], Band(30.5, 40.2, 170.9, 150.0, ink)
     yield THINGS["band"], Band(200.5, 210.2, 220.9, 230.0, ink)
-    yield THINGS["ring"], Ring(90.0, 60.8, ink)
+    yield THINGS["ring"], Ring(90.0, 60.8, ink, 1.0)
     yield THINGS["area"], Area(curve(50).vertices + 3.0, ink, 0.34)
     yield THINGS["words"], Words("Others", QFont(), (50.5, 60.0, 150.0, 90.0), ink, LIGHT)
     for name, count in (("short wide", 90), ("long wide", 2000), ("thin", 30)):

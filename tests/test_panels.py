@@ -5,6 +5,7 @@ from PySide6.QtCore import Qt
 from app.opening import ready_document
 from app.panels import CurvesPanel, PointsPanel
 from app.session import Selection, Session
+from core.affine import Affine
 from core.document import Curve, Document
 
 Role = Qt.ItemDataRole
@@ -146,3 +147,35 @@ def test_only_rows_that_changed_are_shown_anew(qtbot):
     assert told == [(7, 7), (150, 150)]
     assert panel.model.data(panel.model.index(7, 1)) == "2.000"
     assert panel.model.data(panel.model.index(8, 0)) == "16.000"
+
+
+@pytest.fixture
+def listed(qtbot):
+    """A panel of 200 points, and the rows that it is told to show anew."""
+    session = Session(Document((Curve(np.arange(400.0).reshape(-1, 2)),)))
+    panel = PointsPanel(session)
+    qtbot.addWidget(panel)
+    told = []
+    panel.model.dataChanged.connect(lambda first, last: told.append((first.row(), last.row())))
+    return session, panel, told
+
+
+def test_all_rows_are_shown_anew_when_the_curve_is_carried_elsewhere(listed):
+    session, panel, told = listed
+    curve = session.document.curves[0].carried(Affine.shift((1.0, 2.0)))
+    session.edit(session.document.with_curve(0, curve), "Move 200 points")
+    assert told == [(0, 199)]
+    assert panel.model.data(panel.model.index(7, 0)) == "15.000"
+
+
+def test_within_a_drag_the_table_is_told_of_many_moves_at_once(qtbot, listed):
+    session, panel, told = listed
+    session.begin("Move point")
+    for step in range(1, 9):
+        curve = session.document.curves[0].moved([step % 2], [(step, 0.0)])
+        session.adjust(session.document.with_curve(0, curve))
+    assert told == []
+    session.commit()
+    qtbot.waitUntil(lambda: len(told) > 0)
+    assert told == [(0, 0), (1, 1)]
+    assert panel.model.data(panel.model.index(0, 0)) == "8.000"

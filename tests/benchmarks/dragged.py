@@ -67,7 +67,7 @@ def main(count: int) -> list[float]:
             super().mouseMoveEvent(event)
 
         def paintEvent(self, event):  # noqa: N802
-            waits = self._redraw.isActive()  # if so, this paint is not yet all
+            waits = self._is_due  # if so, this paint is not yet all
             super().paintEvent(event)
             if self.since is not None and not waits:
                 QTimer.singleShot(0, self.painted)  # the display has been given the picture then
