@@ -68,6 +68,7 @@ class Sheet(QWidget):
         self._paper = QPixmap()
         self._picture = Picture()
         self._ground: tuple[object, ...] = ()
+        self._looks: tuple[object, ...] = ()
         self._is_stale = True
         self._shown_overlay: Overlay = NOTHING
         self._notice = ""
@@ -177,7 +178,7 @@ class Sheet(QWidget):
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:
-        if self._is_due or self._ground[:1] != (self._present_setting(),):
+        if self._is_due or self._looks != (palette_of(self), self.devicePixelRatioF()):
             # What differs outside of the event's region is painted by the next event.
             self._renew()
         content = self._content()
@@ -289,7 +290,7 @@ class Sheet(QWidget):
         setting, self._marked = self._present_setting(), self._mouse
         ground = setting, self._camera, self._show_grid, self.hasFocus()
         is_other, is_first = ground != self._ground, not self._ground
-        self._ground = ground
+        self._ground, self._looks = ground, (setting.palette, setting.ratio)
         # A screen's ratio and the colours change without a word.
         self._is_stale |= is_other
         self._settle()

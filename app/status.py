@@ -38,6 +38,9 @@ SIZE_LEVEL: Final = 6
 UNKNOWN: Final = "\N{HORIZONTAL ELLIPSIS}"
 """What stands for the class of the scheme before the first finding."""
 
+FIGURE_MARGIN_PX: Final = 12
+"""Air on both sides of a figure's widest text."""
+
 SIZE_POINTS: Final = 2_000_000
 """Largest number of curve points that the size is taken from; long curves are sampled coarser."""
 
@@ -65,7 +68,8 @@ class StatusBar(QStatusBar):
         self.proof.setText(UNKNOWN)  # a button without words is higher than one with
         self.proof.setAccessibleName("What is proven of the scheme")
         widest = "C\u00b9\u00b9 proven, not C\u00b9\u00b2"
-        self.proof.setMinimumWidth(self.proof.fontMetrics().horizontalAdvance(widest) + 12)
+        room = self.proof.fontMetrics().horizontalAdvance(widest)
+        self.proof.setMinimumWidth(room + FIGURE_MARGIN_PX)
         self.addPermanentWidget(self.proof)
         self.size_label = self._figure("Size of the drawing", "9999.99 \u00d7 9999.99 mm")
         self.zoom_label = self._figure("Zoom", "100000 %")
@@ -221,7 +225,7 @@ class Figure(QLabel):
         """Show a text."""
         if words != self.text():
             self.setText(words)
-            if self._advance(words) > self._advance(self._room):
+            if self._advance(words) + FIGURE_MARGIN_PX > self.width():
                 self._room = words
                 self._fit()
 
@@ -229,7 +233,8 @@ class Figure(QLabel):
         return self.fontMetrics().horizontalAdvance(words)
 
     def _fit(self) -> None:
-        self.setFixedSize(self._advance(self._room) + 12, self.fontMetrics().height() + 2)
+        room = self._advance(self._room)
+        self.setFixedSize(room + FIGURE_MARGIN_PX, self.fontMetrics().height() + 2)
 
     @guarded
     def changeEvent(self, event: QEvent) -> None:

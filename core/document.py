@@ -150,10 +150,11 @@ class Curve:
             points = self.points.copy()
             points[chosen] = places
             return replace(self, points=points)
-        before = self._moves
-        together = np.concatenate([before.indices, chosen])[::-1]
-        changed, last = np.unique(together, return_index=True)
-        places = np.concatenate([before.positions, places])[::-1][last]
+        before, changed = self._moves, chosen
+        if len(before.indices) or len(chosen) > 1:
+            together = np.concatenate([before.indices, chosen])[::-1]
+            changed, last = np.unique(together, return_index=True)
+            places = np.concatenate([before.positions, places])[::-1][last]
         curve = self._with(_Moves(before.base, before.placed, changed, places))
         return replace(curve) if len(changed) > _MOVED_SHARE * count else curve
 
@@ -270,9 +271,15 @@ class Document:
 
     def with_curve(self, index: int, curve: Curve) -> Document:
         """Copy with another curve at ``index``."""
+        before = self.curves[index]
         curves = list(self.curves)
         curves[index] = curve
-        return replace(self, curves=tuple(curves))
+        if curve.count > before.count:
+            return replace(self, curves=tuple(curves))
+        # What was admitted stays so, and thousands of curves are not counted for each move.
+        document = object.__new__(Document)
+        vars(document).update(vars(self), curves=tuple(curves))
+        return document
 
     def with_curve_added(self, curve: Curve) -> Document:
         """Copy with one more curve at the end."""

@@ -1,11 +1,13 @@
 """The session: one signal an edit, the selection kept within the document."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from app.session import Selection, Session
 from core.document import Curve, Document
+from core.family import PRESETS
 
 
 @pytest.fixture
@@ -83,3 +85,33 @@ def test_another_document_starts_a_new_history(session, changes):
     assert not session.is_modified
     assert session.selection == Selection()
     assert changes[-1][1] is other
+
+
+def test_moves_of_a_drag_tell_of_no_other_status_than_the_first(session):
+    told = []
+    session.status_changed.connect(lambda: told.append(session.undo_name))
+    session.begin("Move point")
+    for x in range(1, 6):
+        curve = session.document.curves[0].moved([0], (x, 0))
+        session.adjust(session.document.with_curve(0, curve))
+    assert told == ["Move point"]
+    session.commit()
+    assert told == ["Move point"] * 2
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda document: document.with_curve(0, replace(document.curves[0], name="Wing")),
+        lambda document: document.with_curve(0, replace(document.curves[0], closed=False)),
+        lambda document: document.with_curve_added(document.curves[1]),
+        lambda document: document.with_parameters(PRESETS["Tight"]),
+    ],
+)
+def test_what_a_menu_shows_is_told_of_within_a_gesture_too(session, change):
+    session.begin("Change")
+    session.adjust(session.document.with_curve(0, session.document.curves[0].moved([0], (1, 0))))
+    told = []
+    session.status_changed.connect(lambda: told.append(True))
+    session.adjust(change(session.document))
+    assert told == [True]

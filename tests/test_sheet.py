@@ -167,3 +167,15 @@ def test_one_draw_for_many_edits(canvas, session, monkeypatch):
     assert draws == []
     QApplication.processEvents()
     assert len(draws) == 1
+
+
+def test_posted_events_alone_bring_the_new_picture(canvas, session, monkeypatch):
+    # Without a turn of the loop for a timer: labels that follow the mouse are painted with it.
+    QApplication.processEvents()
+    draws = []
+    monkeypatch.setattr(canvas, "update", lambda *args: draws.append(args))
+    moved = session.document.curves[0].moved([0], (30.0, 30.0))
+    session.edit(session.document.with_curve(0, moved), "Move point")
+    assert draws == []
+    QApplication.sendPostedEvents()
+    assert len(draws) == 1

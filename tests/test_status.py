@@ -2,6 +2,8 @@ from threading import Event, current_thread
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QEvent, QObject
+from PySide6.QtWidgets import QApplication, QMainWindow
 
 from app import status as status_module
 from app.analysis import Finding
@@ -160,3 +162,40 @@ def test_the_bar_keeps_its_height_when_the_class_is_known(qtbot, bar):
     before = bar.sizeHint().height(), bar.proof.sizeHint().height()
     bar.show_finding(Finding(PRESETS["Calm"], smoothness(PRESETS["Calm"].mask)))
     assert (bar.sizeHint().height(), bar.proof.sizeHint().height()) == before
+
+
+def test_figures_and_hints_that_change_lay_nothing_out(qtbot):
+    window = QMainWindow()
+    bar = StatusBar(Session(ready_document()), window)
+    window.setStatusBar(bar)
+    qtbot.addWidget(window)
+    with qtbot.waitExposed(window):
+        window.show()
+    QApplication.processEvents()
+    laid = []
+
+    class Watch(QObject):
+        def eventFilter(self, watched, event):  # noqa: N802
+            if event.type() == QEvent.Type.LayoutRequest and watched in (window, bar):
+                laid.append(watched)
+            return False
+
+    watch = Watch()
+    QApplication.instance().installEventFilter(watch)
+    for step in range(9):
+        bar.show_cursor((step, -step))
+        bar.show_hint(f"{step} mm \u00b7 Shift keeps an axis")
+        bar.show_zoom(1 + step)
+        QApplication.processEvents()
+    QApplication.instance().removeEventFilter(watch)
+    assert laid == []
+    assert bar.hint.text().startswith("8 mm")
+
+
+def test_a_figure_makes_room_for_a_wider_one(bar):
+    before = bar.cursor_label.width()
+    bar.show_cursor((-123456.0, -123456.0))
+    wide = bar.cursor_label.width()
+    assert wide > before
+    bar.show_cursor((1.0, 1.0))
+    assert bar.cursor_label.width() == wide

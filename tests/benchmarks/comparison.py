@@ -6,14 +6,24 @@ import os
 import re
 import subprocess
 import sys
+import timeit
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from statistics import median
 from time import perf_counter, time
 from typing import NamedTuple
 
-Rows = list[tuple[str, str, str]]
-"""What is measured, its figure and its budget, of each line of the table."""
+
+class Row(NamedTuple):
+    """A line of the table: what is measured, its figure, its budget, and `pace` then."""
+
+    quantity: str
+    value: str
+    budget: str
+    pace: float
+
+
+Rows = list[Row]
 
 SECONDS = 0.5
 """Time that a comparison takes, about, unless its candidates are slow."""
@@ -23,6 +33,12 @@ FEWEST_ROUNDS = 5
 UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 MIB = 2**20
+
+_LOOP = """
+held = {}
+for i in range(3000):
+    held[i % 97] = str(i)
+"""
 
 _AMOUNT = re.compile(r"(?<![\w.])(\d[\d,.]*)\s*(times faster|\w*)")
 
@@ -69,7 +85,16 @@ class Comparison:
 
     def row(self, quantity: str, value: str, budget: str = "") -> None:
         """Put a line into the table."""
-        self._rows.append((quantity, value, budget))
+        self._rows.append(Row(quantity, value, budget, pace()))
+
+
+def pace() -> float:
+    """Seconds that a loop takes that is always the same: how fast the machine is just now.
+
+    Virtual machines run at times at half of their speed; a figure in milliseconds says little
+    without that.
+    """
+    return min(timeit.repeat(_LOOP, number=1, repeat=5))
 
 
 class Start(NamedTuple):
@@ -128,15 +153,18 @@ def share(value: str, budget: str) -> float | None:
 
 
 def table(rows: Rows) -> list[str]:
-    """Lines of the table; a figure beyond its budget has an exclamation mark."""
-    cells = [("what", "figure", "budget", "share of it")]
-    for quantity, value, budget in rows:
+    """Lines of the table; a figure beyond its budget has an exclamation mark.
+
+    The last column is the pace: 1.0 where the machine was as fast as it ever was in this run.
+    """
+    cells = [("what", "figure", "budget", "share of it", "pace")]
+    fastest = min(row.pace for row in rows)
+    for quantity, value, budget, seconds in rows:
         part = share(value, budget)
         mark = "" if part is None else f"{part:.2f} {'!' if part > 1 else ' '}"
-        cells.append((quantity, value, budget, mark))
+        cells.append((quantity, value, budget, mark, f"{fastest / seconds:.1f}"))
     wide = [max(map(len, column)) for column in zip(*cells, strict=True)]
     lines = [
-        f"{what:<{wide[0]}}  {figure:>{wide[1]}}  {budget:>{wide[2]}}  {part:>{wide[3]}}".rstrip()
-        for what, figure, budget, part in cells
+        "  ".join([line[0].ljust(wide[0]), *map(str.rjust, line[1:], wide[1:])]) for line in cells
     ]
     return [lines[0], "-" * max(map(len, lines)), *lines[1:]]

@@ -37,7 +37,8 @@ def pytest_terminal_summary(
     terminalreporter.write_line(
         f"{processor()}, {os.cpu_count()} cores, {platform.system()}; Python "
         f"{platform.python_version()}, Qt {PySide6.__version__}, NumPy {np.__version__} on one"
-        f" core, OpenBLAS kernels: {kernel}"
+        f" core, OpenBLAS kernels: {kernel}; pace 1.0: {min(row.pace for row in rows) * 1e3:.2f} ms"
+        " for 3,000 numbers turned into text"
     )
 
 

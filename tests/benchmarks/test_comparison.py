@@ -1,5 +1,5 @@
 import pytest
-from comparison import share, table
+from comparison import Row, share, table
 
 
 @pytest.mark.parametrize(
@@ -21,6 +21,12 @@ def test_share_of_a_budget(value, budget, expected):
 
 
 def test_the_table_marks_what_is_beyond_its_budget():
-    lines = table([("start", "2.42", "2.2"), ("memory", "116 MB", "120 MB"), ("size", "3", "")])
-    assert [line.endswith("!") for line in lines[2:]] == [True, False, False]
-    assert lines[3].endswith("0.97")
+    lines = table(
+        [
+            Row("start", "2.42", "2.2", 1e-3),
+            Row("memory", "116 MB", "120 MB", 1e-3),
+            Row("size", "3", "", 2e-3),
+        ]
+    )
+    marks = [line.split()[-2:] for line in lines[2:]]
+    assert marks == [["!", "1.0"], ["0.97", "1.0"], ["3", "0.5"]]
