@@ -21,6 +21,7 @@ from app.edits import counted, without_points
 from app.gestures import Pointer
 from app.guard import guarded
 from app.hand import Hand
+from app.measure import Measure
 from app.nudging import Nudging
 from app.point_set import PointSet
 from app.scene import Overlay
@@ -61,6 +62,11 @@ class Canvas(Sheet):
         The scale in logical pixels per millimetre (of `Sheet`).
     tool_changed(str)
         Another tool is in the hand: "select", "pen" or "hand".
+
+    Attributes
+    ----------
+    measure
+        Tells how large the drawing is.
     """
 
     hint_changed = Signal(str)
@@ -70,6 +76,7 @@ class Canvas(Sheet):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(session, parent)
         self._hand = Hand(self, Nudging(session, self))
+        self.measure = Measure(session, lambda: self.scene.curves, self)
         self._hint = self._message = ""
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)

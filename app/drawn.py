@@ -131,7 +131,7 @@ class Drawn:
 
         It lives: use it at once.
         """
-        return self._present().limit
+        return self.present().limit
 
     @cached_property
     def points_px(self) -> NDArray[np.float64]:
@@ -153,11 +153,11 @@ class Drawn:
     ) -> NDArray[np.intp] | None:
         """Indices of the control points in a rectangle; None if there are more than ``most``."""
         low, high = self.camera.to_mm(np.stack([low_px, high_px]))
-        return _within(self._present(), np.minimum(low, high), np.maximum(low, high), most)
+        return _within(self.present(), np.minimum(low, high), np.maximum(low, high), most)
 
     def on_polygon(self, pos_px: NDArray[np.float64], radius_px: float) -> float | None:
         """Place near the mouse on the polygon: i at point i, linear along what looks straight."""
-        polygon = self._present().polygon
+        polygon = self.present().polygon
         if polygon is None:
             return None
         radius = radius_px * self.camera.pixel_mm
@@ -165,7 +165,8 @@ class Drawn:
         found = nearest_place(polygon, place, radius, self.figure.placed)
         return None if found is None else found[0]
 
-    def _present(self) -> Figure:
+    def present(self) -> Figure:
+        """The figure, called back to this curve; it lives: use it at once."""
         self.figure.follow(self.curve, self.scheme)
         return self.figure
 

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-import numpy as np
 from PySide6.QtCore import QEvent, QSize, QTimer
 from PySide6.QtGui import QColor, QPalette, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QToolButton, QWidget
 
 from app.guard import guarded
-from app.session import Session
 from app.style import palette_of
-from app.worker import Worker
-from core.document import Document
-from core.errors import NinepointError
 
 if TYPE_CHECKING:
     from app.analysis import Finding
+    from app.measure import Size
 
 MESSAGE_MS: Final = 8_000
 """How long a sentence such as "Saved wing.ninepoint." covers the hint: time to read it twice."""
@@ -25,39 +21,20 @@ MESSAGE_MS: Final = 8_000
 MM_PER_INCH: Final = 25.4
 """What a screen's dots per inch are counted by."""
 
-SIZE_DELAY_MS: Final = 60
-"""The size is computed when the hand rests this long: it must not slow a drag."""
-
-HELD_POINTS: Final = 20_000
-"""Number of control points up to which the size is computed at once, also while the hand rests
-within a drag; that of longer drawings comes from the background when the drag has ended."""
-
-SIZE_LEVEL: Final = 6
-"""Dyadic level of the points that the size is taken from: 64 a span, exact to some 1e-4 of it."""
-
 UNKNOWN: Final = "\N{HORIZONTAL ELLIPSIS}"
 """What stands for the class of the scheme before the first finding."""
 
 FIGURE_MARGIN_PX: Final = 12
 """Air on both sides of a figure's widest text."""
 
-SIZE_POINTS: Final = 2_000_000
-"""Largest number of curve points that the size is taken from; long curves are sampled coarser."""
-
 
 class StatusBar(QStatusBar):
-    """Hint, size, zoom and cursor; a sentence takes the place of the hint for a while.
+    """Hint, size, zoom and cursor; a sentence takes the place of the hint for a while."""
 
-    Parameters
-    ----------
-    session
-        The document whose size is shown.
-    """
-
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._session = session
         self._warns = False
+        self._size: Size | None = None
         line = HintLine()
         self.hint = line.words
         self.hint.setAccessibleName("Hint")
@@ -79,14 +56,6 @@ class StatusBar(QStatusBar):
         self._telling.setSingleShot(True)
         self._telling.setInterval(MESSAGE_MS)
         self._telling.timeout.connect(lambda: self.hint.setText(self._hint))
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.setInterval(SIZE_DELAY_MS)
-        self._timer.timeout.connect(self._on_rest)
-        self._measurer = Worker(self)
-        self._measurer.done.connect(self._show_size)
-        session.changed.connect(self._on_changed)
-        self.measure()
 
     def _figure(self, name: str, widest: str) -> Figure:
         figure = Figure(widest)
@@ -118,7 +87,8 @@ class StatusBar(QStatusBar):
         self.proof.setToolTip("What is proven of the scheme: click for the report (Ctrl+R)")
         self._warns = not finding.is_convergent
         self._colour()
-        self._timer.start()
+        if self.size_label.text():
+            self.show_size(self._size)
 
     def show_zoom(self, scale: float) -> None:
         """Show the zoom, given in logical pixels per mm, in percent of real size."""
@@ -133,26 +103,19 @@ class StatusBar(QStatusBar):
         x, y = position
         self.cursor_label.show_words(f"{x:.2f}, {y:.2f}".replace("-", "\N{MINUS SIGN}"))
 
-    def measure(self) -> None:
-        """Show the size of the drawing as it is now; that of a long one as soon as it is known."""
-        document = self._session.document
-        if _is_long(document):
-            self._measurer.ask(lambda _cancelled, _send: drawn_size(document))
-        else:
-            self._show_size(drawn_size(document))
-
-    def stop(self) -> None:
-        """End what is measured in the background; returns when nothing runs any more."""
-        self._timer.stop()
-        self._measurer.stop()
-
-    def _show_size(self, size: tuple[float, float] | None) -> None:
+    def show_size(self, size: Size | None) -> None:
+        """Show how large the drawing is, or that there is nothing to be measured."""
+        self._size = size
         if self._warns:
-            self.size_label.show_words("no finite size")
+            words = "no finite size"
         elif size is None:
-            self.size_label.show_words("empty")
+            words = "empty"
+        elif not size.is_proven:
+            words = "no proven size"
         else:
-            self.size_label.show_words(f"{size[0]:.2f} \u00d7 {size[1]:.2f} mm")
+            words = f"{size.width:.2f} \u00d7 {size.height:.2f} mm"
+            words = words if size.is_sharp else f"about {words}"
+        self.size_label.show_words(words)
 
     def _colour(self) -> None:
         palette = QPalette()
@@ -166,18 +129,6 @@ class StatusBar(QStatusBar):
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_warns"):
             self._colour()
-
-    def _on_rest(self) -> None:
-        """Measure, but not a long drawing while it is held: the hand would feel it."""
-        if self._session.in_gesture and _is_long(self._session.document):
-            self._timer.start()
-        else:
-            self.measure()
-
-    def _on_changed(self, old: Document, new: Document) -> None:
-        if old.curves is not new.curves or old.parameters is not new.parameters:
-            self._measurer.cancel()
-            self._timer.start()
 
 
 class HintLine(QWidget):
@@ -242,27 +193,3 @@ class Figure(QLabel):
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and hasattr(self, "_room"):
             self._fit()
-
-
-def _is_long(document: Document) -> bool:
-    return sum(curve.count for curve in document.curves) > HELD_POINTS
-
-
-def drawn_size(document: Document) -> tuple[float, float] | None:
-    """Width and height in mm of the box around all limit curves, or None if nothing is drawn."""
-    corners = []
-    for curve in document.curves:
-        if not curve.count:
-            continue
-        level = SIZE_LEVEL
-        while level > 0 and curve.count << level > SIZE_POINTS:
-            level -= 1
-        try:
-            points = curve.limit(document.parameters).points(level)
-        except NinepointError:
-            return None
-        corners += [points.min(axis=0), points.max(axis=0)]
-    if not corners:
-        return None
-    width, height = np.max(corners, axis=0) - np.min(corners, axis=0)
-    return float(width), float(height)

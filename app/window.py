@@ -94,9 +94,8 @@ class MainWindow(QMainWindow):
         self._stops: list[Callable[[], None]] = []
         self.setCentralWidget(self.canvas)
         self.docks = Docks(self)
-        self.status = StatusBar(self.session, self)
+        self.status = StatusBar(self)
         self.setStatusBar(self.status)
-        self._stops.append(self.status.stop)
         self.commands = Actions(self)
         self.tool_bar = self._make_tool_bar()
         fill_menu_bar(self)
@@ -131,6 +130,7 @@ class MainWindow(QMainWindow):
         canvas.hint_changed.connect(status.show_hint)
         canvas.cursor_moved.connect(status.show_cursor)
         canvas.zoom_changed.connect(status.show_zoom)
+        canvas.measure.changed.connect(status.show_size)
         canvas.tool_changed.connect(lambda _tool: self.commands.refresh())
         canvas.customContextMenuRequested.connect(lambda at: open_context_menu(self, at))
         status.proof.clicked.connect(self.commands["report"].trigger)

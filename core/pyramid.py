@@ -41,6 +41,13 @@ class Pyramid(ABC):
         """All nodes of a level."""
         return np.arange(self.blocks.boxes[level].shape[1])
 
+    @property
+    def box(self) -> NDArray[np.float64]:
+        """Box of all of it: lower corner, and the negative of the upper, shape (4,)."""
+        level = self.depth - 1
+        box: NDArray[np.float64] = self.boxes(level, self.nodes(level)).min(axis=1)
+        return box
+
     @abstractmethod
     def boxes(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
         """Boxes of some nodes, shape (4, m): lower corners, and the negatives of the upper."""

@@ -200,7 +200,7 @@ def test_text_is_not_taken_for_a_file(window):
 
 def test_an_empty_drawing_has_no_size(window):
     window.commands["new"].trigger()
-    window.status.measure()
+    window.canvas.measure.look()
     assert window.status.size_label.text() == "empty"
     assert window.session.document.curves == ()
 
@@ -490,7 +490,7 @@ def test_a_drawing_that_runs_away_has_no_crash(window):
     window.session.replace(far, None)
     window.canvas.fit_all()
     window.grab()
-    window.status.measure()
+    window.canvas.measure.look()
     assert "mm" in window.status.size_label.text()
 
 
