@@ -23,11 +23,11 @@ from core.chords import cell_constant
 from core.errors import NoLimitError
 from core.pyramid import CurvePyramid
 
-MOST: Final = 512
-"""Nodes that are cut at a time. Of more the farthest come first, and mostly exclude the others."""
+MOST: Final = 256
+"""Blocks that are cut at a time. Of more the farthest come first, and mostly exclude the others."""
 
-BUDGET: Final = 16
-"""Times that so many are cut, 5 ms each: the tips of a long zigzag may be more."""
+BUDGET: Final = 4
+"""Times that so many are cut, up to 10 ms each: the tips of a long hatching are more."""
 
 _ROUNDS: Final = 12
 """Rounds of cutting single spans, 36 levels: beyond, rounding is larger than any part."""
@@ -59,7 +59,7 @@ def extent(pyramid: CurvePyramid, tolerance: float, placed: Affine = IDENTITY) -
         The curve with its levels of detail.
     tolerance
         How far the curve may leave the box, > 0, in the unit of the points. It is kept unless more
-        than some 50,000 spans compete; `Extent.deviation` tells.
+        than some thousand tips compete; `Extent.deviation` tells.
     placed
         Where the curve lies whose box is sought.
 
@@ -74,10 +74,8 @@ def extent(pyramid: CurvePyramid, tolerance: float, placed: Affine = IDENTITY) -
     level = pyramid.depth - 1
     nodes = np.arange(-(-pyramid.spans // FAN ** (level + 1)))
     search.meet(_ends(pyramid, level, nodes))
-    waiting = [(level, nodes)]
-    for _ in range(BUDGET):
-        if not waiting:
-            break
+    waiting, cuts = [(level, nodes)], 0
+    while waiting and cuts < BUDGET:
         level, nodes = waiting.pop()
         nodes = nodes[search.farthest(pyramid.boxes(level, nodes))]
         if len(nodes) > MOST:
@@ -90,6 +88,7 @@ def extent(pyramid: CurvePyramid, tolerance: float, placed: Affine = IDENTITY) -
             waiting.append((level, nodes))
         elif len(nodes):
             _cut(pyramid, np.sort(nodes), search)
+            cuts += 1
     for level, nodes in waiting:
         search.drop(search.ahead(pyramid.boxes(level, nodes)))
     return Extent(search.reached[:2], -search.reached[2:], search.deviation)
