@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPixmap
-from PySide6.QtSvg import QSvgRenderer
+from PySide6.QtCore import QBuffer, QByteArray, QSize
+from PySide6.QtGui import QColor, QIcon, QImageReader, QPalette, QPixmap
 
 from app.assets import icon_path
 
@@ -36,9 +35,9 @@ def tinted(name: str, palette: QPalette, ratio: float) -> QIcon:
     disabled = palette.color(QPalette.ColorGroup.Disabled, role)
     icon = QIcon()
     for mode, colour in ((QIcon.Mode.Normal, normal), (QIcon.Mode.Disabled, disabled)):
-        renderer = QSvgRenderer(_coloured(drawing, colour))
+        coloured = _coloured(drawing, colour)
         for size in SIZES_PX:
-            icon.addPixmap(_picture(renderer, size, ratio), mode)
+            icon.addPixmap(_picture(coloured, size, ratio), mode)
     return icon
 
 
@@ -51,10 +50,11 @@ def _coloured(drawing: str, colour: QColor) -> QByteArray:
     return QByteArray(drawing.replace(PLACEHOLDER_COLOUR, colour.name()).encode())
 
 
-def _picture(renderer: QSvgRenderer, size: int, ratio: float) -> QPixmap:
-    picture = QPixmap(QSize(size, size) * ratio)
+def _picture(drawing: QByteArray, size: int, ratio: float) -> QPixmap:
+    # Qt reads SVG as it reads any picture; its module for SVG takes 15 ms of the start to load.
+    source = QBuffer(drawing)  # which the reader does not keep alive
+    reader = QImageReader(source, QByteArray(b"svg"))
+    reader.setScaledSize(QSize(size, size) * ratio)
+    picture = QPixmap.fromImageReader(reader)
     picture.setDevicePixelRatio(ratio)
-    picture.fill(Qt.GlobalColor.transparent)
-    with QPainter(picture) as painter:
-        renderer.render(painter, QRectF(0, 0, size, size))
     return picture

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QByteArray, QPoint, QRect, QSettings, QSize, QStandardPaths
 
 from core.errors import NinepointError
-from core.profiles import Profile, decode, encode
+
+if TYPE_CHECKING:
+    from core.profiles import Profile
 
 MAX_RECENT: Final = 10
 """Number of recent files that are kept: as many as fit a menu without searching."""
@@ -93,7 +95,7 @@ class Settings:
 
     @export_profiles.setter
     def export_profiles(self, profiles: Sequence[Profile]) -> None:
-        self._write("export/own", "\n".join(encode(profile).decode() for profile in profiles))
+        self._write("export/own", "\n".join(encoded(profile) for profile in profiles))
 
     @property
     def export_changes(self) -> dict[str, Profile]:
@@ -104,7 +106,7 @@ class Settings:
 
     @export_changes.setter
     def export_changes(self, changes: Mapping[str, Profile]) -> None:
-        lines = [f"{key} {encode(profile).decode()}" for key, profile in changes.items()]
+        lines = [f"{key} {encoded(profile)}" for key, profile in changes.items()]
         self._write("export/changes", "\n".join(lines))
 
     @property
@@ -169,8 +171,17 @@ class Settings:
             self._memory[key] = value
 
 
+def encoded(profile: Profile) -> str:
+    """Text of an export profile, in one line."""
+    from core.profiles import encode
+
+    return encode(profile).decode()
+
+
 def decoded(text: str) -> Profile | None:
     """Export profile of a text, or None if that is damaged or of a newer program."""
+    from core.profiles import decode  # with what it needs, a tenth of the start
+
     try:
         return decode(text)
     except NinepointError:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +13,9 @@ from core.affine import IDENTITY, Affine
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
-from core.profiles import Profile
+
+if TYPE_CHECKING:
+    from core.profiles import Profile
 
 MAX_COORDINATE_MM: Final = 1e9
 """Largest admitted coordinate. At this size a float still resolves a tenth of a micrometre."""

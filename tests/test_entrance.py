@@ -1,4 +1,5 @@
 import gc
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -76,3 +77,27 @@ def test_a_library_that_lacks_is_left_to_who_installs_it():
 
     with pytest.raises(ImportError):
         status_of(fail, lambda sentence: None)
+
+
+def test_what_the_first_paint_does_not_need_is_not_loaded_for_it(tmp_path):
+    later = ["msgspec", "PySide6.QtSvg", "pyqtgraph", "click", "ezdxf", "core.store"]
+    code = (
+        "import sys\n"
+        "from app.loading import load_qt; load_qt()\n"
+        "from app.launch import run\n"
+        "from PySide6.QtWidgets import QWidget\n"
+        "import app.window\n"
+        f"later = {later}\n"
+        "paint = app.window.MainWindow.paintEvent\n"
+        "def first(window, event):\n"
+        "    print([name for name in later if name in sys.modules])\n"
+        "    sys.stdout.flush()\n"
+        "    import os; os._exit(0)\n"
+        "app.window.MainWindow.paintEvent = first\n"
+        "run(None, None, None, 'system')\n"
+    )
+    environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "XDG_CONFIG_HOME": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, env=environment
+    )
+    assert done.stdout == "[]\n", done.stderr
