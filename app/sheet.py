@@ -282,7 +282,8 @@ class Sheet(QWidget):
     def _draw(self) -> None:
         """Have painted what differs from what is shown; without a difference, nothing."""
         self._is_due = False
-        self._renew()
+        if self._ground:  # before the first paint there is nothing to be compared with
+            self._renew()
 
     def _renew(self) -> None:
         """Make the picture of what is shown now, and have painted where it differs."""
