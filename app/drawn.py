@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.camera import Camera
+from app.compact import SHORT, Compact, Vertices
 from app.figure import Figure
 from app.line import Line, line_of, stride_of
-from app.spans import span_vertices
 from core.document import Curve
 from core.family import Parameters
 from core.live import LiveCurve
@@ -32,11 +32,8 @@ LEAST_SPACING_PX: Final = 4.0
 REACH_PX: Final = 12.0
 """How far around the canvas curves and points are drawn: what their pens and handles cover."""
 
-SHORT: Final = 64
-"""Number of spans up to which a curve is drawn whole, without its levels of detail."""
-
 SHORT_VERTICES: Final = 512
-"""Number of vertices up to which it is: at high zoom most of them would be out of view."""
+"""Vertices up to which a short curve is drawn whole: at high zoom most would be out of view."""
 
 SPLICED_FROM: Final = 72
 """Number of spans from which moves of a point are drawn by `app.splice`: four times its reach."""
@@ -184,33 +181,35 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
         Device pixels per logical pixel.
     """
     tolerance = TOLERANCE_PX / ratio * camera.pixel_mm
-    limit = figure.limit
+    limit, compact = figure.limit, figure.compact
     if limit is not None and limit.spans >= SPLICED_FROM:
         # Where a chord is cut, both halves of the tolerance may be needed.
         tolerance /= 2
     low, high = seen_mm(camera)
     centre = np.array([camera.x_mm, camera.y_mm])
-    outline = _NOTHING
-    if limit is not None and limit.spans:
-        short = _short(figure, tolerance, centre) if figure.is_proven else None
-        if short is not None:
-            outline = short
-        elif figure.outline is not None:
+    outline = polygon = _NOTHING
+    shown: NDArray[np.intp] | None = _NO_INDICES
+    if compact is None or _meets(compact, low, high):
+        short = None if compact is None else compact.vertices(tolerance)
+        if short is not None and len(short[0]) <= SHORT_VERTICES:
+            outline = _whole(short, centre, tolerance)
+        elif limit is not None and limit.spans and figure.outline is not None:
             outline = view(figure.outline, low, high, tolerance, centre, placed=figure.placed)
-    polygon = _NOTHING
-    if 2 <= figure.curve.count <= SHORT:
-        polygon = _corners(figure.curve, centre)
-    elif figure.polygon is not None:
-        polygon = view(figure.polygon, low, high, tolerance, centre, placed=figure.placed)
-    flip, shift = (camera.scale, -camera.scale), (camera.width / 2, camera.height / 2)
+        if compact is not None:
+            polygon = _whole(compact.corners, centre, 0.0) if figure.curve.count > 1 else _NOTHING
+        elif figure.polygon is not None:
+            polygon = view(figure.polygon, low, high, tolerance, centre, placed=figure.placed)
+        shown = _shown(figure, camera, low, high)
+    flip = np.array([camera.scale, -camera.scale])
+    shift = np.array([camera.width / 2, camera.height / 2])
     return Drawn(
         figure.curve,
         figure.parameters,
         figure,
         camera,
-        replace(outline, vertices=outline.vertices * flip + shift),
-        replace(polygon, vertices=polygon.vertices * flip + shift),
-        _shown(figure, camera),
+        outline.carried(flip, shift),
+        polygon.carried(flip, shift),
+        shown,
         (stride_of(outline), stride_of(polygon)),
     )
 
@@ -222,28 +221,29 @@ def seen_mm(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return low - reach, high + reach
 
 
-def _short(figure: Figure, tolerance: float, centre: NDArray[np.float64]) -> Runs | None:
-    """All of a curve of few spans, where that takes few vertices."""
-    limit = figure.limit
-    if limit is None or limit.spans > SHORT:
-        return None
-    found = span_vertices(limit, range(limit.spans), tolerance / figure.placed.stretch)
-    if found is None or len(found[0]) > SHORT_VERTICES:
-        return None
-    t, points = found
-    return Runs(figure.placed(points) - centre, t, np.array([0, len(t)]), tolerance)
+def _meets(compact: Compact, low: NDArray[np.float64], high: NDArray[np.float64]) -> bool:
+    """Whether a short curve may be seen in a rectangle."""
+    lower, upper = compact.box
+    return bool((lower <= high).all() and (upper >= low).all())
 
 
-def _corners(curve: Curve, centre: NDArray[np.float64]) -> Runs:
-    """All of a control polygon."""
-    indices = np.arange(curve.count + curve.is_loop)
-    corners = curve.places(indices % curve.count) - centre
-    return Runs(corners, indices.astype(np.float64), np.array([0, len(indices)]), 0.0)
+def _whole(vertices: Vertices, centre: NDArray[np.float64], deviation: float) -> Runs:
+    """All vertices of a curve as one run."""
+    t, points = vertices
+    return Runs(points - centre, t, np.array([0, len(t)]), deviation)
 
 
-def _shown(figure: Figure, camera: Camera) -> NDArray[np.intp] | None:
+def _shown(
+    figure: Figure, camera: Camera, low: NDArray[np.float64], high: NDArray[np.float64]
+) -> NDArray[np.intp] | None:
     """Control points in view, unless their signs would only cover the curve."""
-    found = _within(figure, *seen_mm(camera), MOST_HANDLES)
+    compact, count = figure.compact, figure.curve.count
+    if compact is not None and count >= 3:
+        lower, upper = compact.box
+        if (lower >= low).all() and (upper <= high).all():
+            hidden = compact.spacing * camera.scale < LEAST_SPACING_PX
+            return None if hidden else np.arange(count)
+    found = _within(figure, low, high, MOST_HANDLES)
     if found is None or len(found) < 3:
         return found
     ways = np.diff(figure.curve.places(found), axis=0) * camera.scale

@@ -7,8 +7,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from app.compact import SHORT, Compact
 from core.affine import IDENTITY
 from core.blocks import Blocks
+from core.chords import bounds
 from core.document import Curve
 from core.errors import NoLimitError
 from core.family import PRESETS, Parameters
@@ -41,8 +43,8 @@ class Figure:
 
     Notes
     -----
-    The levels of detail are brought up to date when they are asked for: while a few points are
-    dragged they are not (`app.splice`).
+    The levels of detail are made, and brought up to date, when they are asked for: curves of a few
+    points do without (`compact`), and so do drags of a few points (`app.splice`).
     """
 
     def __init__(self, curve: Curve, parameters: Parameters) -> None:
@@ -52,23 +54,26 @@ class Figure:
         self._pending = _NONE
         # A scheme that always has a limit; the true one is cast next.
         self._live = LiveCurve(curve.points, PRESETS["Calm"].mask, curve.is_loop)
-        self._blocks = Blocks(self._live) if self._live.spans else None
+        self._blocks: Blocks | None = None
         self._outline: CurvePyramid | None = None
-        self._has_limit = False
+        self._compact: Compact | None = None
+        self._has_limit = self._is_proven = False
         self._cast()
 
     def _cast(self) -> None:
         """Go over to the scheme of the parameters; what depends on it costs nothing of size n."""
-        self._outline, self._has_limit = None, False
+        self._outline = self._compact = None
+        self._has_limit = self._is_proven = False
+        mask = self.parameters.mask
         try:
-            self._live.recast(self.parameters.mask)
-            if self._blocks is not None:
-                self._blocks.update_ends()
-                self._outline = CurvePyramid(self._blocks)
+            known = bounds(mask)
+            self._live.recast(mask)
         except NoLimitError:
             # What there is of it is drawn: the polygon.
             return
-        self._has_limit = True
+        self._has_limit, self._is_proven = True, known.finest is None
+        if self._blocks is not None:
+            self._blocks.update_ends()
 
     @property
     def limit(self) -> LiveCurve | None:
@@ -78,19 +83,29 @@ class Figure:
     @property
     def outline(self) -> CurvePyramid | None:
         """Levels of detail of the limit curve; None without a span, or without a limit."""
-        self._settle()
+        blocks = self._present_blocks()
+        if self._outline is None and blocks is not None and self._has_limit:
+            self._outline = CurvePyramid(blocks)
         return self._outline
 
     @property
     def polygon(self) -> PolygonPyramid | None:
         """Levels of detail of the control polygon; None with fewer than two points."""
-        self._settle()
-        return None if self._blocks is None else PolygonPyramid(self._blocks)
+        blocks = self._present_blocks()
+        return None if blocks is None else PolygonPyramid(blocks)
 
     @property
     def is_proven(self) -> bool:
         """Whether the chords of the limit curve have proven bounds."""
-        return self._outline is not None and self._outline.finest is None
+        return self._is_proven and self._live.spans > 0
+
+    @property
+    def compact(self) -> Compact | None:
+        """All of a short curve, kept until it changes; None of a longer one, or of none."""
+        if self._compact is None and 0 < self.curve.count <= SHORT:
+            limit = self._live if self.is_proven else None
+            self._compact = Compact(self.curve, limit, self.placed)
+        return self._compact
 
     def follow(self, curve: Curve, parameters: Parameters) -> bool:
         """Stand for another curve that differs by moves, or another scheme, or both.
@@ -123,6 +138,7 @@ class Figure:
             self._first = curve if changed is not None else self._first
         if changed is None:
             return False
+        self._compact = None
         self._live.move(changed, self.placed.inverse(curve.places(changed)))
         self._pending = np.union1d(self._pending, changed)
         self.curve = curve
@@ -132,11 +148,14 @@ class Figure:
         """Spans that read some control points, as `core.live.LiveCurve.move` tells them."""
         return self._live.reading(indices)
 
-    def _settle(self) -> None:
-        """Bring the levels of detail up to date."""
+    def _present_blocks(self) -> Blocks | None:
+        """The levels of detail, made or brought up to date; None without a span."""
         pending, self._pending = self._pending, _NONE
         if self._blocks is not None:
             self._blocks.update(pending)
+        elif self._live.spans:
+            self._blocks = Blocks(self._live)
+        return self._blocks
 
 
 def akin(curve: Curve, other: Curve) -> bool:

@@ -25,6 +25,9 @@ from app.pixel_box import SMOOTHED_PX, Box, around, gathered, meeting
 from app.polyline import area_within_square, point_of, polygon_of
 from app.style import Palette, color
 
+_SIMPLE: Final = 96
+"""Vertices of a line up to which all of it is drawn: to choose what is seen would cost more."""
+
 MITRE: Final = 2.0
 """Widths of a pen that its mitred joins reach: Qt's miter limit."""
 
@@ -66,7 +69,8 @@ class Stroke(Ink):
 
     @cached_property
     def box(self) -> Box:
-        return around(self.line.boxes, self.reach)
+        places = self.line.vertices.T
+        return around(np.concatenate([places, places]), self.reach)
 
     def unlike(self, other: Ink) -> list[Box]:
         if not isinstance(other, Stroke) or self._pen != other._pen:
@@ -83,6 +87,11 @@ class Stroke(Ink):
 
     def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
         line = self.line
+        if len(line.t) <= _SIMPLE:
+            painter.setPen(_pen(*self._pen))
+            for polygon, is_loop in line.polygons:
+                (painter.drawPolygon if is_loop else painter.drawPolyline)(polygon)
+            return
         met = meeting(line.boxes, region, self.reach)
         # Thin pens round otherwise where a segment has a cap: all have their neighbours.
         chosen = line.heads[met | met[line.neighbours].any(axis=0)]

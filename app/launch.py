@@ -25,6 +25,10 @@ from app.window import DEFAULT_SIZE, MainWindow
 from core.document import Document
 from core.errors import FileError
 
+SEARCHES: Final = (20_000, 20, 100)
+"""New objects after which Python looks for garbage among the young, and how many times it does
+that before it looks among the older ones, and the oldest."""
+
 IDLE_MESSAGE: Final = "This plugin does not support propagateSizeHints()"
 """What Qt says of each window on a screen that is not there; it means nothing to the user."""
 
@@ -126,10 +130,13 @@ def _unasked(path: Path) -> Document:
 def _search_what_comes() -> None:
     """Let Python look for garbage again, but not among what lives as long as the program.
 
-    That spares the hand, which a search through all would stop for some 20 ms now and then.
+    That spares the hand, which a search through all would stop for some 20 ms now and then. Among
+    thousands of curves each frame makes more than Python expects of a program; what is garbage
+    there goes without a search, so that it may come rarely.
     """
     if not gc.isenabled():
         gc.freeze()
+        gc.set_threshold(*SEARCHES)
         gc.enable()
 
 

@@ -33,8 +33,9 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+from PySide6.QtGui import QPolygonF
 
-from app.polyline import SAFE_PX, thinned, within_square
+from app.polyline import SAFE_PX, polygon_of, thinned, within_square
 from core.runs import Runs
 
 WHOLE: Final = 512
@@ -73,6 +74,14 @@ class Line:
         """The vertices of each piece."""
         for first, after in zip(self.starts[:-1], self.starts[1:], strict=True):
             yield self.vertices[first:after]
+
+    @cached_property
+    def polygons(self) -> list[tuple[QPolygonF, bool]]:
+        """The pieces as Qt draws them, and whether each is a loop; its end is left out then."""
+        return [
+            (polygon_of(piece[:-1] if is_loop else piece), bool(is_loop))
+            for piece, is_loop in zip(self.pieces(), self._loops, strict=True)
+        ]
 
     @cached_property
     def heads(self) -> NDArray[np.intp]:

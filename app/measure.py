@@ -117,11 +117,14 @@ def size_of(curves: Sequence[Drawn]) -> Size | None:
 
 def _outer(drawn: Drawn) -> NDArray[np.float64]:
     """Box that holds a curve: least x and y, and the negatives of the largest, shape (4,)."""
-    pyramid = drawn.present().outline
-    if pyramid is None:
+    figure = drawn.present()
+    if figure.compact is not None:
+        low, high = figure.compact.box
+    elif figure.outline is not None:
+        box = figure.outline.box
+        low, high = figure.placed.box(box[:2], -box[2:])
+    else:
         return _reach(drawn)[0]
-    box = pyramid.box
-    low, high = drawn.figure.placed.box(box[:2], -box[2:])
     return np.concatenate([low, -high])
 
 

@@ -79,10 +79,8 @@ class LimitCurve:
         self.mask = mask
         self._basis = BasicLimitFunction(mask, self._IS_EXACT)
         self._coordinates = coordinates
-        # Views for many products: to make one costs more than a small product.
-        reads = mask.end - mask.start
-        self._windows = _windows(coordinates, reads + 1, self.spans)
-        self._cells = _windows(coordinates, reads, self.spans + 1)
+        # One view for many products: to make it costs more than a small one.
+        self._windows = _windows(coordinates, mask.end - mask.start + 1, self.spans)
 
     @property
     def endless_points(self) -> NDArray[np.float64]:
@@ -121,7 +119,8 @@ class LimitCurve:
                 curve = np.concatenate([curve, polygon[-1:].T], axis=1)
         else:
             # Cells read one point less than spans do; the first begins half a span before t = 0.
-            cells = _product(self._cells, self._basis.cell_table(level)[:, :-1]).reshape(2, -1)
+            windows = _windows(self._coordinates, self.mask.end - self.mask.start, self.spans + 1)
+            cells = _product(windows, self._basis.cell_table(level)[:, :-1]).reshape(2, -1)
             first = 2 ** (level - 1)
             curve = cells[:, first : first + (self.spans << level) + (not self.closed)]
         if not self.closed:

@@ -38,6 +38,10 @@ class Runs:
     starts: NDArray[np.intp]
     deviation: float
 
+    def carried(self, factors: NDArray[np.float64], shift: NDArray[np.float64]) -> Runs:
+        """The same with vertices ``v * factors + shift``; the deviation stays as it was told."""
+        return Runs(self.vertices * factors + shift, self.parameters, self.starts, self.deviation)
+
     def runs(self) -> Iterator[NDArray[np.float64]]:
         """The vertices of each run."""
         for first, after in zip(self.starts[:-1], self.starts[1:], strict=True):

@@ -70,10 +70,10 @@ def test_spans_are_told_without_a_change():
 
 
 def test_without_a_limit_there_is_a_polygon_until_there_is_one(monkeypatch):
-    def refuse(blocks):
+    def refuse(mask):
         raise NoLimitError("no limit")
 
-    monkeypatch.setattr("app.figure.CurvePyramid", refuse)
+    monkeypatch.setattr("app.figure.bounds", refuse)
     curve = circle(30)
     figure = Figure(curve, CALM)
     assert figure.limit is figure.outline is None

@@ -23,6 +23,7 @@ def test_a_screenshot_is_silent(qtbot, tmp_path, as_in_a_terminal, capfd):
 def test_the_search_for_garbage_begins_after_the_first_paint(qtbot, tmp_path, monkeypatch):
     searched = []
     monkeypatch.setattr(gc, "freeze", lambda: searched.append("frozen"))
+    monkeypatch.setattr(gc, "set_threshold", lambda *numbers: searched.append("rarely"))
     monkeypatch.setattr(launch, "_draw", lambda window, *args: window.painted.emit() or 0)
     gc.disable()
     try:
@@ -31,7 +32,7 @@ def test_the_search_for_garbage_begins_after_the_first_paint(qtbot, tmp_path, mo
     finally:
         gc.enable()
     run(None, tmp_path / "window.png")
-    assert searched == ["frozen"]  # who has not stopped the search keeps it as it is
+    assert searched == ["frozen", "rarely"]  # who has not stopped the search keeps it as it is
 
 
 def test_other_messages_of_qt_are_told(qtbot, tmp_path, as_in_a_terminal, capfd, monkeypatch):

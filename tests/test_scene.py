@@ -147,10 +147,10 @@ def test_absurd_parameters_stay_finite(neighbours):
 def test_a_scheme_without_limit_has_points_but_no_curve(monkeypatch):
     from core.errors import NoLimitError
 
-    def refuse(blocks):
+    def refuse(mask):
         raise NoLimitError("no limit")
 
-    monkeypatch.setattr("app.figure.CurvePyramid", refuse)
+    monkeypatch.setattr("app.figure.bounds", refuse)
     scene = drawn(boat())
     assert not scene.has_limit
     assert len(scene.curves[0].vertices_px) == 0

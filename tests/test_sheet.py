@@ -145,10 +145,10 @@ def test_the_first_hint_goes_with_the_first_edit(canvas, session, mouse):
 
 
 def test_a_scheme_without_limit_is_told(canvas, session, monkeypatch):
-    def refuse(blocks):
+    def refuse(mask):
         raise NoLimitError("no limit")
 
-    monkeypatch.setattr("app.figure.CurvePyramid", refuse)
+    monkeypatch.setattr("app.figure.bounds", refuse)
     session.edit(session.document.with_parameters(PRESETS["Tight"]), "Tight")
     canvas.grab()
     QApplication.processEvents()

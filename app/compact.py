@@ -1,0 +1,81 @@
+"""All of a curve of few points, computed once: the next view is mostly the same one moved."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.spans import span_vertices
+from core.affine import Affine
+from core.chords import size_constant
+from core.document import Curve
+from core.live import LiveCurve
+
+SHORT: Final = 64
+"""Number of points and spans up to which a curve is drawn whole, without its levels of detail."""
+
+Vertices = tuple[NDArray[np.float64], NDArray[np.float64]]
+"""Places t and points, shapes (k,) and (k, 2)."""
+
+
+class Compact:
+    """What is drawn of a short curve, in mm, whatever the view.
+
+    Parameters
+    ----------
+    curve
+        The curve.
+    limit
+        Its limit curve, before ``placed``; None when the scheme has none, or nothing is proven.
+    placed
+        Where the limit curve lies.
+
+    Notes
+    -----
+    It is made for a curve as it is: after a change another one is due.
+    """
+
+    def __init__(self, curve: Curve, limit: LiveCurve | None, placed: Affine) -> None:
+        self._curve, self._limit, self._placed = curve, limit, placed
+        self._vertices: tuple[float, Vertices | None] | None = None
+
+    @cached_property
+    def corners(self) -> Vertices:
+        """All of the control polygon; a loop ends where it starts."""
+        indices = np.arange(self._curve.count + self._curve.is_loop)
+        return indices.astype(np.float64), self._curve.places(indices % self._curve.count)
+
+    @cached_property
+    def spacing(self) -> float:
+        """Mean distance of neighbouring control points, of which there must be two."""
+        points = self._curve.points
+        return float(np.hypot(*(points[1:] - points[:-1]).T).mean())
+
+    @cached_property
+    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Corners of a box that holds curve and polygon.
+
+        The curve is a mean of its points, of weights whose sizes sum to `size_constant` at most.
+        """
+        points = self.corners[1]
+        if self._limit is not None:
+            points = np.concatenate([points, self._placed(self._limit.endless_points)])
+        low, high = points.min(axis=0), points.max(axis=0)
+        if self._limit is not None:
+            more = (size_constant(self._limit.mask) - 1) * (high - low) / 2
+            low, high = low - more, high + more
+        return low, high
+
+    def vertices(self, tolerance: float) -> Vertices | None:
+        """Vertices of all of the limit curve, as fine as `app.spans.span_vertices` makes them."""
+        limit = self._limit
+        if limit is None or not limit.spans:
+            return None
+        if self._vertices is None or self._vertices[0] != tolerance:
+            found = span_vertices(limit, range(limit.spans), tolerance / self._placed.stretch)
+            placed = None if found is None else (found[0], self._placed(found[1]))
+            self._vertices = tolerance, placed
+        return self._vertices[1]
