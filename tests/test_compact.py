@@ -39,7 +39,7 @@ def test_a_carried_curve_is_where_it_was_carried(placed):
     before = figure.compact
     assert figure.follow(curve.carried(placed), PRESETS["Tight"])
     t, points = figure.compact.vertices(0.01)
-    known_t, known = before.vertices(0.01)
+    _, known = before.vertices(0.01)
     if placed is IDENTITY:
         np.testing.assert_array_equal(points, known)
     else:

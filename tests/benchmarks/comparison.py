@@ -10,12 +10,12 @@ import timeit
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from statistics import median
-from time import perf_counter, time
+from time import perf_counter, sleep, time
 from typing import NamedTuple
 
 
 class Row(NamedTuple):
-    """A line of the table: what is measured, its figure, its budget, and `pace` then."""
+    """A line of the table: what is measured, its figure, its budget, and the machine's pace."""
 
     quantity: str
     value: str
@@ -29,6 +29,12 @@ SECONDS = 0.5
 """Time that a comparison takes, about, unless its candidates are slow."""
 
 FEWEST_ROUNDS = 5
+
+PATIENCE = 240.0
+"""Seconds that a run waits, at most and in all, for the machine to be as fast as it can be."""
+
+CALM = 1.15
+"""Share of the fastest pace up to which the machine is as fast as it can be."""
 
 UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
@@ -46,8 +52,8 @@ _AMOUNT = re.compile(r"(?<![\w.])(\d[\d,.]*)\s*(times faster|\w*)")
 class Comparison:
     """Times of several ways to do a thing, and the table at the end of the run."""
 
-    def __init__(self, rows: Rows) -> None:
-        self._rows = rows
+    def __init__(self, rows: Rows, machine: Machine) -> None:
+        self._rows, self._machine = rows, machine
 
     def seconds(self, candidates: Mapping[str, Callable[[], object]]) -> dict[str, float]:
         """Median time of each candidate, in seconds; each is warmed up by one call."""
@@ -79,22 +85,44 @@ class Comparison:
         """Median of what each candidate returns, over some rounds."""
         figures: dict[str, list[float]] = {name: [] for name in candidates}
         for _ in range(rounds):
+            self._machine.settle()
             for name, measured in candidates.items():
                 figures[name].append(measured())
         return {name: median(values) for name, values in figures.items()}
 
     def row(self, quantity: str, value: str, budget: str = "") -> None:
         """Put a line into the table."""
-        self._rows.append(Row(quantity, value, budget, pace()))
+        self._rows.append(Row(quantity, value, budget, self._machine.pace()))
 
 
-def pace() -> float:
-    """Seconds that a loop takes that is always the same: how fast the machine is just now.
+class Machine:
+    """How fast the machine is just now: virtual ones run at times at half of their speed.
 
-    Virtual machines run at times at half of their speed; a figure in milliseconds says little
-    without that.
+    A figure in milliseconds says nothing then, so that whoever measures waits for better times.
+
+    Attributes
+    ----------
+    fastest
+        Seconds that a loop took at best that is always the same.
     """
-    return min(timeit.repeat(_LOOP, number=1, repeat=5))
+
+    def __init__(self) -> None:
+        self.fastest = float("inf")
+        self._patience = PATIENCE
+
+    def pace(self) -> float:
+        """Seconds that the loop takes now."""
+        now = min(timeit.repeat(_LOOP, number=1, repeat=5))
+        self.fastest = min(self.fastest, now)
+        return now
+
+    def settle(self) -> None:
+        """Wait until the machine is as fast as it was, as long as the run's patience lasts."""
+        begin = perf_counter()
+        while self.pace() > CALM * self.fastest and self._patience > 0:
+            sleep(0.2)
+            self._patience -= perf_counter() - begin
+            begin = perf_counter()
 
 
 class Start(NamedTuple):

@@ -9,14 +9,25 @@ from pathlib import Path
 import numpy as np
 import PySide6
 import pytest
-from comparison import Comparison, Rows, Starts, table
+from comparison import Comparison, Machine, Rows, Starts, table
 
 ROWS = pytest.StashKey[Rows]()
 
 
+@pytest.fixture(scope="session")
+def machine() -> Machine:
+    return Machine()
+
+
+@pytest.fixture(autouse=True)
+def settled(machine: Machine) -> None:
+    """No measurement begins while the machine is slow."""
+    machine.settle()
+
+
 @pytest.fixture
-def comparison(request: pytest.FixtureRequest) -> Comparison:
-    return Comparison(request.config.stash.setdefault(ROWS, []))
+def comparison(request: pytest.FixtureRequest, machine: Machine) -> Comparison:
+    return Comparison(request.config.stash.setdefault(ROWS, []), machine)
 
 
 @pytest.fixture(scope="session")
