@@ -28,8 +28,6 @@ from app.style import Palette, color
 _SIMPLE: Final = 96
 """Vertices of a line up to which all of it is drawn: to choose what is seen would cost more."""
 
-MITRE: Final = 2.0
-"""Widths of a pen that its mitred joins reach: Qt's miter limit."""
 
 class Ink:
     """A thing on the sheet; two that are equal leave the same ink."""
@@ -52,9 +50,10 @@ class Ink:
 class Stroke(Ink):
     """A line drawn with a solid pen.
 
-    The pen's caps are round, so that the pieces of a line meet. Its joins are mitred: at the blunt
-    corners of a curve's chords Qt's round joins blacken single pixels where the curve runs level
-    (measured: coverage off by 0.46, mitred by 0.21).
+    The pen's caps are round, so that the pieces of a line meet. Its joins are bevelled: at the
+    blunt corners of a curve's chords Qt's round joins blacken single pixels where the curve runs
+    level (measured: coverage off by 0.53, bevelled or mitred by 0.38), and mitred ones take two
+    thirds more time for the same pixels.
     """
 
     line: Line
@@ -65,7 +64,7 @@ class Stroke(Ink):
     @property
     def reach(self) -> float:
         """How far from its middle the pen leaves ink."""
-        return MITRE * self.width + SMOOTHED_PX
+        return self.width / 2 + SMOOTHED_PX
 
     @cached_property
     def box(self) -> Box:
@@ -260,5 +259,5 @@ def _point(x: float, y: float) -> QPointF:
 def _pen(colour: str, width: float, opacity: float) -> QPen:
     return QPen(
         color(colour, opacity), width, Qt.PenStyle.SolidLine,
-        Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.MiterJoin,
+        Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.BevelJoin,
     )  # fmt: skip
