@@ -133,10 +133,12 @@ class Area(Ink):
         outline = area_within_square(self.outline)
         if not len(outline):
             return
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(color(self.colour, self.opacity))
-        painter.drawPolygon(polygon_of(outline), Qt.FillRule.WindingFill)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
+        # As a polygon it would take twice the time.
+        path = QPainterPath()
+        path.addPolygon(polygon_of(outline))
+        path.closeSubpath()
+        path.setFillRule(Qt.FillRule.WindingFill)
+        painter.fillPath(path, color(self.colour, self.opacity))
 
 
 @dataclass(frozen=True)
