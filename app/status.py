@@ -61,6 +61,7 @@ class StatusBar(QStatusBar):
         figure = Figure(widest)
         figure.setAccessibleName(name)
         figure.setToolTip(name)
+        figure.setFixedHeight(self.proof.sizeHint().height())  # on one line with its words
         self.addPermanentWidget(figure)
         return figure
 
@@ -125,10 +126,15 @@ class StatusBar(QStatusBar):
 
     @guarded
     def changeEvent(self, event: QEvent) -> None:
-        """Take over the colours of another scheme."""
+        """Take over the colours of another scheme, and the height of another font."""
         super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_warns"):
+        if not hasattr(self, "cursor_label"):
+            return
+        if event.type() == QEvent.Type.PaletteChange:
             self._colour()
+        elif event.type() == QEvent.Type.FontChange:
+            for figure in (self.size_label, self.zoom_label, self.cursor_label):
+                figure.setFixedHeight(self.proof.sizeHint().height())
 
 
 class HintLine(QWidget):
@@ -184,8 +190,7 @@ class Figure(QLabel):
         return self.fontMetrics().horizontalAdvance(words)
 
     def _fit(self) -> None:
-        room = self._advance(self._room)
-        self.setFixedSize(room + FIGURE_MARGIN_PX, self.fontMetrics().height() + 2)
+        self.setFixedWidth(self._advance(self._room) + FIGURE_MARGIN_PX)
 
     @guarded
     def changeEvent(self, event: QEvent) -> None:

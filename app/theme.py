@@ -38,6 +38,13 @@ BUTTON_SHARE: Final = {LIGHT: 0.0, DARK: 0.17}
 """The same for buttons: as bright as paper in the light, raised in the dark."""
 
 
+MARK_SHARE: Final = {LIGHT: 0.5, DARK: 0.9}
+"""The same for the rims of ticks and round marks, which Fusion draws half as bright as this."""
+
+MARKED: Final = ("QRadioButton", "QCheckBox")
+"""Widgets with such marks."""
+
+
 def styled_application(name: str) -> QApplication:
     """The application in the style Fusion.
 
@@ -55,6 +62,9 @@ def styled_application(name: str) -> QApplication:
     # Asked for in words of the command line, because setStyle() returns the style, and to make a
     # Python class for that takes as long as ten panels: 9 ms before the first paint.
     return QApplication([name, "-style", STYLE])
+
+
+_ROLE = QPalette.ColorRole
 
 
 class Look(QObject):
@@ -83,7 +93,14 @@ class Look(QObject):
         scheme = SCHEMES[self._theme]
         if scheme == Qt.ColorScheme.Unknown:
             scheme = self._application.styleHints().colorScheme()
-        self._application.setPalette(window_palette(palette_of(scheme)))
+        colours = palette_of(scheme)
+        palette = window_palette(colours)
+        self._application.setPalette(palette)
+        # Fusion takes the rims from the window's colour: in the dark they would not be seen.
+        text, window = palette.color(_ROLE.WindowText), palette.color(_ROLE.Window)
+        palette.setColor(_ROLE.Window, blended(text, window, MARK_SHARE[colours]))
+        for name in MARKED:
+            self._application.setPalette(palette, name)  # type: ignore[arg-type]  # no bytes
 
 
 def window_palette(colours: Palette) -> QPalette:

@@ -121,3 +121,17 @@ def test_a_figure_makes_room_for_a_wider_one(bar):
     assert wide > before
     bar.show_cursor((1.0, 1.0))
     assert bar.cursor_label.width() == wide
+
+
+def test_all_words_stand_on_one_line_in_any_font(qtbot, bar):
+    bar.show()
+    for points in (9, 16):
+        font = bar.font()
+        font.setPointSize(points)
+        bar.setFont(font)
+        QApplication.processEvents()
+        middles = {
+            label.mapTo(bar, label.rect().center()).y()
+            for label in (bar.proof, bar.hint, bar.size_label, bar.zoom_label, bar.cursor_label)
+        }
+        assert len(middles) == 1

@@ -4,13 +4,21 @@ import sys
 
 import pytest
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import (
+    QApplication,
+    QCheckBox,
+    QRadioButton,
+    QStyle,
+    QStyleOptionButton,
+    QWidget,
+)
 
 from app.style import DARK, LIGHT, contrast, palette_of
 from app.theme import Look, blended, styled_application, window_palette
 
 Role = QPalette.ColorRole
 TEXT_CONTRAST = 4.5  # WCAG 2.1, 1.4.3
+MARK_CONTRAST = 3.0  # WCAG 2.1, 1.4.11
 
 
 @pytest.mark.parametrize("colours", [LIGHT, DARK])
@@ -46,6 +54,30 @@ def test_a_theme_reaches_every_widget(qtbot, theme, colours):
     widget = QWidget()
     qtbot.addWidget(widget)
     assert palette_of(widget) is colours
+    look.deleteLater()
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("kind", [QCheckBox, QRadioButton])
+def test_a_mark_that_is_off_can_be_seen(qtbot, theme, kind):
+    styled_application("ninepoint")
+    look = Look(QApplication.instance(), theme)
+    button = kind("Words")
+    qtbot.addWidget(button)
+    button.ensurePolished()
+    option = QStyleOptionButton()
+    button.initStyleOption(option)
+    part = QStyle.SubElement.SE_CheckBoxIndicator
+    mark = button.style().subElementRect(part, option, button)
+    picture = button.grab(mark).toImage()
+    ground = QApplication.palette().color(Role.Window).name()
+    seen = [
+        contrast(picture.pixelColor(x, y).name(), ground)
+        for x in range(picture.width())
+        for y in range(picture.height())
+    ]
+    # The rim is some 40 pixels long; a disc that is hardly darker than the window does not count.
+    assert sum(ratio >= MARK_CONTRAST for ratio in seen) >= 20
     look.deleteLater()
 
 
