@@ -6,7 +6,7 @@ calls. Nothing else in the program defines a shortcut.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Final
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 
-from app.icons import tinted
+from app.icons import BAR_PX, SIZES_PX, tinted
 from app.sliders import NEIGHBOUR_TIPS, PRESET_TIPS
 from core.family import PRESETS
 
@@ -303,7 +303,8 @@ class Actions:
         self._window = window
         self._groups: dict[str, QActionGroup] = {}
         self._made = {command.key: self._make(command) for command in COMMANDS}
-        self.tint(TOOL_BAR)  # menus are shut for now, and their icons would take 5 ms
+        # Menus are shut for now, and their icons would take 5 ms.
+        self.tint(TOOL_BAR, (BAR_PX,))
         self.refresh()
 
     def __getitem__(self, key: str) -> QAction:
@@ -361,18 +362,23 @@ class Actions:
         for key in ("cut", "delete", "fit selection"):
             self._made[key].setEnabled(bool(session.selection.points))
 
-    def tint(self, keys: Collection[str] | None = None) -> None:
+    def tint(
+        self, keys: Collection[str] | None = None, sizes_px: Sequence[int] = SIZES_PX
+    ) -> None:
         """Draw icons in the colours of the window's palette, for the pixels of its screen.
 
         Parameters
         ----------
         keys
             Those of the actions; all by default.
+        sizes_px
+            Their logical sizes; all by default.
         """
         palette, ratio = self._window.palette(), self._window.devicePixelRatioF()
         for command in COMMANDS:
             if command.icon and (keys is None or command.key in keys):
-                self._made[command.key].setIcon(tinted(command.icon, palette, ratio))
+                icon = tinted(command.icon, palette, ratio, sizes_px)
+                self._made[command.key].setIcon(icon)
 
 
 def keys_in_words(command: Command) -> str:

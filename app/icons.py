@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Final
+
 from PySide6.QtCore import QBuffer, QByteArray, QSize
 from PySide6.QtGui import QColor, QIcon, QImageReader, QPalette, QPixmap
 
 from app.assets import icon_path
 
-SIZES_PX = (16, 20)
-"""Logical sizes at which icons are shown: in menus, and in the tool bar."""
+BAR_PX: Final = 20
+"""Logical size of icons in the tool bar."""
+
+SIZES_PX: Final = (16, BAR_PX)
+"""All logical sizes at which icons are shown: in menus, and in the tool bar."""
 
 PLACEHOLDER_COLOUR = "currentColor"
 """What the drawings write where the colour of the text belongs."""
 
 
-def tinted(name: str, palette: QPalette, ratio: float) -> QIcon:
+def tinted(
+    name: str, palette: QPalette, ratio: float, sizes_px: Sequence[int] = SIZES_PX
+) -> QIcon:
     """Icon ``name`` in the colours of a palette, normal and disabled.
 
     An icon is a picture of one colour and one density, so it is made anew when the palette changes
@@ -28,6 +36,8 @@ def tinted(name: str, palette: QPalette, ratio: float) -> QIcon:
         Whose text the icon goes with.
     ratio
         Number of device pixels in a pixel.
+    sizes_px
+        Logical sizes that it is drawn in; Qt stretches it to others.
     """
     drawing = icon_path(name).read_text(encoding="utf-8")
     role = QPalette.ColorRole.ButtonText
@@ -36,7 +46,7 @@ def tinted(name: str, palette: QPalette, ratio: float) -> QIcon:
     icon = QIcon()
     for mode, colour in ((QIcon.Mode.Normal, normal), (QIcon.Mode.Disabled, disabled)):
         coloured = _coloured(drawing, colour)
-        for size in SIZES_PX:
+        for size in sizes_px:
             icon.addPixmap(_picture(coloured, size, ratio), mode)
     return icon
 

@@ -68,10 +68,10 @@ def run(
     application.setOrganizationName("Ninepoint")
     application.setApplicationName("Ninepoint")
     application.setDesktopFileName("ninepoint")
-    application.setWindowIcon(program_icon())
     look = Look(application, theme)
     window = MainWindow(settings=Settings(None if screenshot else QSettings()))
     window.painted.connect(_search_what_comes)
+    window.painted.connect(lambda: application.setWindowIcon(program_icon()))
     hook = sys.excepthook
     Failures(window).install()
     before = qInstallMessageHandler(_tell)

@@ -15,7 +15,6 @@ from app.drawn import Drawn
 from app.session import Session
 from core.document import Document
 from core.errors import NoLimitError
-from core.extent import extent
 
 DELAY_MS: Final = 60
 """The size is looked for when nothing has changed for so long: it must not slow a drag."""
@@ -130,6 +129,8 @@ def _outer(drawn: Drawn) -> NDArray[np.float64]:
 
 def _reach(drawn: Drawn) -> tuple[NDArray[np.float64], float]:
     """The same of points of the curve, and how far it leaves that box at most."""
+    from core.extent import extent  # the first paint does not wait for it
+
     figure = drawn.present()
     if figure.limit is None:
         raise NoLimitError("The scheme has no limit curve.")

@@ -11,6 +11,7 @@ from app.opening import ready_document
 from app.session import Session
 from core.affine import Affine
 from core.document import Curve, Document
+from core.extent import extent
 from core.family import PRESETS, Parameters
 from core.formats import export, named
 
@@ -62,9 +63,8 @@ def test_of_many_curves_only_those_at_the_rim_are_searched(canvas_of, monkeypatc
     curves = [flower(30, 3.0, (x, y)) for x in range(0, 100, 10) for y in range(0, 100, 10)]
     document = Document((flower(40, 200.0), *curves))
     searched = []
-    original = size_of.__globals__["extent"]
     monkeypatch.setattr(
-        "app.measure.extent", lambda *args: (searched.append(args), original(*args))[1]
+        "core.extent.extent", lambda *args: (searched.append(args), extent(*args))[1]
     )
     size = size_of(canvas_of(document).scene.curves)
     assert len(searched) == 1

@@ -1,5 +1,7 @@
+import itertools
+
 import pytest
-from comparison import Row, share, table
+from comparison import Comparison, Machine, Row, share, table
 
 
 @pytest.mark.parametrize(
@@ -30,3 +32,29 @@ def test_the_table_marks_what_is_beyond_its_budget():
     )
     marks = [line.split()[-2:] for line in lines[2:]]
     assert marks == [["!", "1.0"], ["0.97", "1.0"], ["3", "0.5"]]
+
+
+def test_rounds_in_which_the_machine_was_slow_are_repeated():
+    paces = itertools.cycle([1.0] * 4 + [2.0] * 6)
+    machine = Machine()
+    machine.pace = lambda: next(paces)
+    machine.fastest = 1.0
+    seen = []
+
+    def measured():
+        # As slow as the machine was when it was last looked at.
+        seen.append(next(paces))
+        return seen[-1]
+
+    found = Comparison([], machine).medians({"way": measured}, 40)
+    assert set(seen) == {1.0, 2.0}
+    assert found == {"way": 1.0}
+
+
+def test_where_the_machine_never_is_calm_all_rounds_count():
+    machine = Machine()
+    machine.pace = lambda: 2.0
+    machine.fastest = 1.0
+    numbers = itertools.count()
+    found = Comparison([], machine).medians({"way": lambda: next(numbers)}, 10)
+    assert found == {"way": 10 * 4 / 2 - 0.5}
