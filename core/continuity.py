@@ -26,10 +26,10 @@ from core.hoelder import (
     exact_interval,
     first_interval,
     quick_interval,
-    rho_floor,
 )
 from core.mask import Mask
 from core.polytope import Cancelled, never
+from core.radius import rho_floor
 
 MAX_ITERATIONS: Final = 10
 """Largest L that is tried. The masks of the L-fold scheme double in length with each step."""

@@ -24,9 +24,8 @@ Found. Comput. Math. 13 (2013).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cache, lru_cache
-from itertools import product
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -35,9 +34,7 @@ from numpy.typing import NDArray
 from core.basis import MEMORY
 from core.mask import Mask
 from core.polytope import INSIDE, Cancelled, invariant_polytope, never
-
-ROUNDING: Final = 1 + 1e-10
-"""Factor on all bounds of rho that covers the rounding of norms of products."""
+from core.radius import ROUNDING, WORD_LENGTH, Radius, improved, matrices_of, radius_of, well_scaled
 
 QUICK_WIDTH: Final = 0.049
 """Width that is aimed at while a slider moves."""
@@ -60,12 +57,6 @@ _QUICK_SIZE: Final = 10
 _QUICK_SEED_SIZE: Final = 0.2
 """Size of the unit vectors in the first quick polytope, next to the leading eigenvector."""
 
-_WORD_LENGTH: Final = 6
-"""Longest products whose spectral radii are tried as lower bounds of rho."""
-
-_PROMISING: Final = 1e-6
-"""Of these, relative distance from the largest up to which one is looked at in full."""
-
 _TRIED_WORDS: Final = 3
 """Longer products tried at each length: those whose norms are the largest."""
 
@@ -75,9 +66,6 @@ _LONGEST_WORD: Final = 60
 _SLACKS: Final = ((0.0, 200), (1e-6, 300), (1e-4, 600), (6.5e-4, 1500))
 """Stretches of rho for which an invariant polytope is sought, and the vertices at which each is
 given up; 30 to 100 are usual, and log2(1 + 6.5e-4) is below 0.001."""
-
-_REAL: Final = 1e-9
-"""Norm of a part of an eigenvector of norm 1 below which the part is rounding."""
 
 _SEED_SIZE: Final = 0.02
 """Size of the unit vectors in the first polytope, next to the leading eigenvector."""
@@ -111,45 +99,6 @@ class HoelderInterval:
         return self.width <= QUICK_WIDTH + 1e-8  # the target and its rounding
 
 
-@dataclass(frozen=True, eq=False)
-class _Radius:
-    """The two matrices in well-scaled coordinates, and the best product found.
-
-    ``leading`` holds the leading eigenvector of that product, one column or two.
-    """
-
-    multiplicity: int
-    matrices: NDArray[np.float64]
-    word: tuple[int, ...]
-    value: float
-    lower: float
-    leading: NDArray[np.float64]
-
-    def exponent(self, rho: float) -> float:
-        """Hölder exponent that a joint spectral radius would give."""
-        return self.multiplicity - 1 - float(np.log2(rho))
-
-    def interval(self, rho: float) -> HoelderInterval:
-        """Interval between an upper bound of rho and the best lower bound."""
-        word = "".join(map(str, self.word))
-        return HoelderInterval(self.exponent(rho), self.exponent(self.lower), word)
-
-
-def transition_matrices(mask: Mask) -> tuple[int, NDArray[np.float64]]:
-    """Multiplicity m of (1+z) and the matrices ``B_0, B_1``, shape (2, d, d), d >= 1."""
-    multiplicity, quotient = mask.factored()
-    return multiplicity, _matrices(quotient.values * 2.0 ** (multiplicity - 1))
-
-
-def _matrices(b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Matrices ``(B_e)_{ij} = b_{2i-j+e}`` of the coefficients ``b_0, b_1, ...``."""
-    size = max(len(b) - 1, 1)
-    index = np.arange(size)
-    place = 2 * index[:, None] - index[None, :] + np.arange(2)[:, None, None]
-    inside = (place >= 0) & (place < len(b))
-    return np.where(inside, b[np.clip(place, 0, len(b) - 1)], 0.0)
-
-
 def converge_throughout(corners: Sequence[Mask], max_nodes: int = 100_000) -> bool:
     """Whether all masks between some corners are proven to give convergent schemes.
 
@@ -175,9 +124,9 @@ def converge_throughout(corners: Sequence[Mask], max_nodes: int = 100_000) -> bo
     end = max(mask.end for mask in corners) - multiplicity
     quotients = [mask.divided(multiplicity) for mask in corners]
     coefficients = np.array([[float(q[i]) for i in range(start, end + 1)] for q in quotients])
-    matrices = np.concatenate([_matrices(row) for row in coefficients])
+    matrices = np.concatenate([matrices_of(row) for row in coefficients])
     # Relative to 2^(m-1): b carries that factor, and the radius shall stay below it.
-    steps = _well_scaled(matrices) * ROUNDING
+    steps = well_scaled(matrices) * ROUNDING
     products = steps
     nodes = 0
     while len(products):
@@ -187,11 +136,6 @@ def converge_throughout(corners: Sequence[Mask], max_nodes: int = 100_000) -> bo
             return False
         products = np.matmul(steps[:, None], products[None]).reshape(-1, *steps.shape[1:])
     return True
-
-
-def rho_floor(mask: Mask) -> float:
-    """Lower bound of the joint spectral radius of the transition matrices."""
-    return _radius(mask).lower
 
 
 def first_interval(mask: Mask) -> HoelderInterval:
@@ -212,7 +156,7 @@ def quick_interval(mask: Mask) -> HoelderInterval:
     if radius.matrices.shape[1] <= _QUICK_SIZE:
         rho = radius.value * (1 + _QUICK_SLACK)
         if _admits_polytope(radius, rho, _QUICK_SEED_SIZE, _QUICK_VERTICES, never):
-            return _narrower(found, radius.interval(rho * INSIDE * ROUNDING))
+            return _narrower(found, _interval(radius, rho * INSIDE * ROUNDING))
     return branch_and_bound(mask, QUICK_WIDTH, _QUICK_NODES)
 
 
@@ -238,11 +182,11 @@ def branch_and_bound(mask: Mask, width: float, max_nodes: int) -> HoelderInterva
 
 
 @lru_cache(maxsize=MEMORY)
-def _searched(mask: Mask, width: float, max_nodes: int) -> tuple[HoelderInterval, _Radius]:
+def _searched(mask: Mask, width: float, max_nodes: int) -> tuple[HoelderInterval, Radius]:
     """Branch and bound; also the matrices with the best product that was met on the way."""
-    radius = _radius(mask)
+    radius = radius_of(mask)
     if not radius.word:
-        return radius.interval(radius.lower), radius
+        return _interval(radius, radius.lower), radius
     target = radius.lower * 2.0**width
     # Products are kept relative to the target, so that long ones neither grow nor vanish.
     steps = radius.matrices / target
@@ -259,10 +203,10 @@ def _searched(mask: Mask, width: float, max_nodes: int) -> tuple[HoelderInterval
         bound = min(bound, target * max(float(shortest.max(initial=1.0)), 1.0))
         spent = nodes + 2 * len(products) > max_nodes or length == _LONGEST_WORD
         if spent or not len(products):
-            return radius.interval(bound * ROUNDING), radius
-        if length > _WORD_LENGTH:
+            return _interval(radius, bound * ROUNDING), radius
+        if length > WORD_LENGTH:
             largest = np.argsort(-shortest)[:_TRIED_WORDS]
-            radius = _improved(radius, [_digits(int(words[k]), length) for k in largest])
+            radius = improved(radius, [_digits(int(words[k]), length) for k in largest])
             shrink = target / (radius.lower * 2.0**width)
             target /= shrink
             steps = steps * shrink
@@ -274,18 +218,15 @@ def _searched(mask: Mask, width: float, max_nodes: int) -> tuple[HoelderInterval
         length += 1
 
 
+def _interval(radius: Radius, rho: float) -> HoelderInterval:
+    """Interval between an upper bound of rho and the best lower bound."""
+    word = "".join(map(str, radius.word))
+    return HoelderInterval(radius.exponent(rho), radius.exponent(radius.lower), word)
+
+
 def _digits(code: int, length: int) -> tuple[int, ...]:
     """Binary digits of a word, the first one leading."""
     return tuple(code >> place & 1 for place in reversed(range(length)))
-
-
-def _improved(radius: _Radius, words: list[tuple[int, ...]]) -> _Radius:
-    """The same matrices with the best of some words, if one of them beats the present product."""
-    for word in words:
-        value, lower, leading = _spectral_radius(radius.matrices, word)
-        if lower > radius.lower * ROUNDING**2:
-            radius = replace(radius, word=word, value=value, lower=lower, leading=leading)
-    return radius
 
 
 def exact_interval(mask: Mask, cancelled: Cancelled = never) -> HoelderInterval:
@@ -309,14 +250,14 @@ def exact_interval(mask: Mask, cancelled: Cancelled = never) -> HoelderInterval:
     for slack, max_vertices in _SLACKS:
         rho = radius.value * (1 + slack)
         if _admits_polytope(radius, rho, _SEED_SIZE, max_vertices, cancelled):
-            return _narrower(best, radius.interval(rho * INSIDE * ROUNDING))
+            return _narrower(best, _interval(radius, rho * INSIDE * ROUNDING))
         if cancelled():
             break
     return best
 
 
 def _admits_polytope(
-    radius: _Radius, rho: float, seed_size: float, max_vertices: int, cancelled: Cancelled
+    radius: Radius, rho: float, seed_size: float, max_vertices: int, cancelled: Cancelled
 ) -> bool:
     """Whether an invariant polytope grows from the leading eigenvector, for matrices over rho."""
     steps = radius.matrices / rho
@@ -338,90 +279,3 @@ def _norms(products: NDArray[np.float64]) -> NDArray[np.float64]:
     """Frobenius norms: submultiplicative, and cheap for thousands of matrices."""
     squares: NDArray[np.float64] = np.einsum("pij,pij->p", products, products)
     return np.sqrt(squares)
-
-
-@lru_cache(maxsize=MEMORY)
-def _radius(mask: Mask) -> _Radius:
-    """Scale the matrices well, and find the product with the largest mean spectral radius."""
-    multiplicity, matrices = transition_matrices(mask)
-    if matrices.shape[1] == 1:
-        # b has one or two coefficients; the matrices are numbers and rho is the larger one.
-        value = float(np.abs(matrices).max())
-        return _Radius(multiplicity, matrices, (), value, value, np.ones((1, 1)))
-    matrices = _well_scaled(matrices)
-    found = [(_spectral_radius(matrices, word), word) for word in _promising_words(matrices)]
-    # Among products that are as good up to rounding the shortest one, which comes first.
-    largest = max(lower for (_, lower, _), _ in found)
-    (value, lower, leading), word = next(f for f in found if f[0][1] * ROUNDING >= largest)
-    return _Radius(multiplicity, matrices, word, value, lower / ROUNDING, leading)
-
-
-def _promising_words(matrices: NDArray[np.float64]) -> list[tuple[int, ...]]:
-    """Words up to `_WORD_LENGTH` whose products have nearly the largest mean spectral radius."""
-    words = _lyndon_words(_WORD_LENGTH)
-    products: dict[tuple[int, ...], NDArray[np.float64]] = {(): np.eye(matrices.shape[1])}
-    for word in words:
-        for end in range(1, len(word) + 1):
-            if word[:end] not in products:
-                products[word[:end]] = matrices[word[end - 1]] @ products[word[: end - 1]]
-    powers = np.array([products[word] for word in words])
-    lengths = np.array([len(word) for word in words])
-    means = np.abs(np.linalg.eigvals(powers)).max(axis=1) ** (1 / lengths)
-    return [words[k] for k in np.flatnonzero(means * (1 + _PROMISING) >= means.max())]
-
-
-def _well_scaled(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Similar matrices for which the Euclidean norm is nearly extremal.
-
-    The dominant eigenvector X of the positive map ``X -> sum_e B_e^T X B_e``, with eigenvalue
-    lambda, is an ellipsoid with ``B_e^T X B_e <= lambda X``, so ``||B_e||_X <= sqrt(lambda)``, and
-    ``rho >= sqrt(lambda / 2)``. A share of the unit matrix keeps it away from being singular.
-    """
-    size = matrices.shape[1]
-    ellipsoid, share = np.eye(size) / size, 1e-9 * np.eye(size)
-    column = matrices.reshape(-1, size)
-    row = np.ascontiguousarray(column.T)
-    for _ in range(40):
-        image = row @ np.matmul(ellipsoid, matrices).reshape(-1, size)
-        ellipsoid = image / image.trace() + share
-    root = np.linalg.cholesky(ellipsoid).T
-    scaled: NDArray[np.float64] = root @ matrices @ np.linalg.inv(root)
-    return scaled
-
-
-def _spectral_radius(
-    matrices: NDArray[np.float64], word: tuple[int, ...]
-) -> tuple[float, float, NDArray[np.float64]]:
-    """Mean spectral radius of the product of a word, the same rounded down, and its eigenvector.
-
-    The eigenvector comes as one column, or, if it is complex, as its real and imaginary parts.
-    """
-    power = matrices[word[0]]
-    for digit in word[1:]:
-        power = matrices[digit] @ power
-    values, vectors = np.linalg.eig(power)
-    index = int(np.abs(values).argmax())
-    vector = vectors[:, index]
-    size = abs(values[index])
-    try:
-        left = np.linalg.inv(vectors)[index]
-        condition = float(np.linalg.norm(left) * np.linalg.norm(vector))
-    except np.linalg.LinAlgError:
-        condition = np.inf
-    eps = float(np.finfo(np.float64).eps)
-    error = 10 * eps * condition * float(np.linalg.norm(power))
-    parts = [vector.real, vector.imag]
-    columns = np.column_stack([part for part in parts if np.linalg.norm(part) > _REAL])
-    lower = max(size - error, 0.0) ** (1 / len(word))
-    return size ** (1 / len(word)), lower, columns
-
-
-@cache
-def _lyndon_words(longest: int) -> tuple[tuple[int, ...], ...]:
-    """Binary words that are smaller than all their rotations: one for each primitive product."""
-    return tuple(
-        word
-        for length in range(1, longest + 1)
-        for word in product((0, 1), repeat=length)
-        if all(word < word[k:] + word[:k] for k in range(1, length))
-    )

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core import hoelder
+from core import hoelder, radius
 from core.continuity import derived, iterated_norm
 from core.family import PRESETS, Parameters, default_box
 from core.hoelder import (
@@ -16,8 +16,8 @@ from core.hoelder import (
     converge_throughout,
     exact_interval,
     quick_interval,
-    transition_matrices,
 )
+from core.radius import transition_matrices
 from oracles import convergent_members
 from reference import ROWS
 
@@ -61,12 +61,12 @@ def test_a_long_maximal_product_is_not_overlooked(width):
 @pytest.mark.parametrize("max_nodes", [100, 1_000, 10_000])
 def test_the_lower_end_holds_even_if_the_best_product_is_never_tried(monkeypatch, max_nodes):
     """Pruned are only products that cannot matter, however poor the lower bound of rho is."""
-    monkeypatch.setattr(hoelder, "_WORD_LENGTH", 1)
+    monkeypatch.setattr(radius, "WORD_LENGTH", 1)
     monkeypatch.setattr(hoelder, "_TRIED_WORDS", 0)
     mask = Parameters("186/1000", "-480/1000", "680/1000", "mirrored").mask
-    hoelder._radius.cache_clear()
+    radius.radius_of.cache_clear()
     found = branch_and_bound(mask, 0.1, max_nodes)
-    hoelder._radius.cache_clear()
+    radius.radius_of.cache_clear()
     bound = word_bound(mask, [0, 0, 1, 1])
     assert bound < word_bound(mask, [0]) - 0.03
     assert found.lower <= bound

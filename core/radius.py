@@ -1,0 +1,179 @@
+"""The joint spectral radius of a mask's matrices from below: by the best of many products.
+
+Notes
+-----
+Every product of k matrices gives a lower bound of rho, its spectral radius to the power 1/k. It is
+computed by LAPACK, and widened by `ROUNDING` and by the first-order condition number of the
+eigenvalue; that last step is an estimate where the eigenvalue is nearly defective.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache
+from itertools import product
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.basis import MEMORY
+from core.mask import Mask
+
+ROUNDING: Final = 1 + 1e-10
+"""Factor on all bounds of rho that covers the rounding of norms of products."""
+
+WORD_LENGTH: Final = 6
+"""Longest products whose spectral radii are tried as lower bounds of rho."""
+
+_PROMISING: Final = 1e-6
+"""Of these, relative distance from the largest up to which one is looked at in full."""
+
+_REAL: Final = 1e-9
+"""Norm of a part of an eigenvector of norm 1 below which the part is rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Radius:
+    """The two matrices in well-scaled coordinates, and the best product found.
+
+    Attributes
+    ----------
+    multiplicity
+        Full multiplicity m of (1+z).
+    matrices
+        Shape (2, d, d).
+    word
+        Digits of the product; empty where the matrices are numbers.
+    value, lower
+        Its mean spectral radius, and the same rounded down: a lower bound of rho.
+    leading
+        Its leading eigenvector, one column, or the real and imaginary part as two.
+    """
+
+    multiplicity: int
+    matrices: NDArray[np.float64]
+    word: tuple[int, ...]
+    value: float
+    lower: float
+    leading: NDArray[np.float64]
+
+    def exponent(self, rho: float) -> float:
+        """Hölder exponent that a joint spectral radius would give."""
+        return self.multiplicity - 1 - float(np.log2(rho))
+
+
+def transition_matrices(mask: Mask) -> tuple[int, NDArray[np.float64]]:
+    """Multiplicity m of (1+z) and the matrices ``B_0, B_1``, shape (2, d, d), d >= 1."""
+    multiplicity, quotient = mask.factored()
+    return multiplicity, matrices_of(quotient.values * 2.0 ** (multiplicity - 1))
+
+
+def matrices_of(b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Matrices ``(B_e)_{ij} = b_{2i-j+e}`` of the coefficients ``b_0, b_1, ...``."""
+    size = max(len(b) - 1, 1)
+    index = np.arange(size)
+    place = 2 * index[:, None] - index[None, :] + np.arange(2)[:, None, None]
+    inside = (place >= 0) & (place < len(b))
+    return np.where(inside, b[np.clip(place, 0, len(b) - 1)], 0.0)
+
+
+def rho_floor(mask: Mask) -> float:
+    """Lower bound of the joint spectral radius of the transition matrices."""
+    return radius_of(mask).lower
+
+
+@lru_cache(maxsize=MEMORY)
+def radius_of(mask: Mask) -> Radius:
+    """Scale the matrices well, and find the product with the largest mean spectral radius."""
+    multiplicity, matrices = transition_matrices(mask)
+    if matrices.shape[1] == 1:
+        # b has one or two coefficients; the matrices are numbers and rho is the larger one.
+        value = float(np.abs(matrices).max())
+        return Radius(multiplicity, matrices, (), value, value, np.ones((1, 1)))
+    matrices = well_scaled(matrices)
+    found = [(_spectral_radius(matrices, word), word) for word in _promising_words(matrices)]
+    # Among products that are as good up to rounding the shortest one, which comes first.
+    largest = max(lower for (_, lower, _), _ in found)
+    (value, lower, leading), word = next(f for f in found if f[0][1] * ROUNDING >= largest)
+    return Radius(multiplicity, matrices, word, value, lower / ROUNDING, leading)
+
+
+def _promising_words(matrices: NDArray[np.float64]) -> list[tuple[int, ...]]:
+    """Words up to `WORD_LENGTH` whose products have nearly the largest mean spectral radius."""
+    words = _lyndon_words(WORD_LENGTH)
+    products: dict[tuple[int, ...], NDArray[np.float64]] = {(): np.eye(matrices.shape[1])}
+    for word in words:
+        for end in range(1, len(word) + 1):
+            if word[:end] not in products:
+                products[word[:end]] = matrices[word[end - 1]] @ products[word[: end - 1]]
+    powers = np.array([products[word] for word in words])
+    lengths = np.array([len(word) for word in words])
+    means = np.abs(np.linalg.eigvals(powers)).max(axis=1) ** (1 / lengths)
+    return [words[k] for k in np.flatnonzero(means * (1 + _PROMISING) >= means.max())]
+
+
+def well_scaled(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Similar matrices for which the Euclidean norm is nearly extremal.
+
+    The dominant eigenvector X of the positive map ``X -> sum_e B_e^T X B_e``, with eigenvalue
+    lambda, is an ellipsoid with ``B_e^T X B_e <= lambda X``, so ``||B_e||_X <= sqrt(lambda)``, and
+    ``rho >= sqrt(lambda / 2)``. A share of the unit matrix keeps it away from being singular.
+    """
+    size = matrices.shape[1]
+    ellipsoid, share = np.eye(size) / size, 1e-9 * np.eye(size)
+    column = matrices.reshape(-1, size)
+    row = np.ascontiguousarray(column.T)
+    for _ in range(40):
+        image = row @ np.matmul(ellipsoid, matrices).reshape(-1, size)
+        ellipsoid = image / image.trace() + share
+    root = np.linalg.cholesky(ellipsoid).T
+    scaled: NDArray[np.float64] = root @ matrices @ np.linalg.inv(root)
+    return scaled
+
+
+def _spectral_radius(
+    matrices: NDArray[np.float64], word: tuple[int, ...]
+) -> tuple[float, float, NDArray[np.float64]]:
+    """Mean spectral radius of the product of a word, the same rounded down, and its eigenvector.
+
+    The eigenvector comes as one column, or, if it is complex, as its real and imaginary parts.
+    """
+    power = matrices[word[0]]
+    for digit in word[1:]:
+        power = matrices[digit] @ power
+    values, vectors = np.linalg.eig(power)
+    index = int(np.abs(values).argmax())
+    vector = vectors[:, index]
+    size = abs(values[index])
+    try:
+        left = np.linalg.inv(vectors)[index]
+        condition = float(np.linalg.norm(left) * np.linalg.norm(vector))
+    except np.linalg.LinAlgError:
+        condition = np.inf
+    eps = float(np.finfo(np.float64).eps)
+    error = 10 * eps * condition * float(np.linalg.norm(power))
+    parts = [vector.real, vector.imag]
+    columns = np.column_stack([part for part in parts if np.linalg.norm(part) > _REAL])
+    lower = max(size - error, 0.0) ** (1 / len(word))
+    return size ** (1 / len(word)), lower, columns
+
+
+@cache
+def _lyndon_words(longest: int) -> tuple[tuple[int, ...], ...]:
+    """Binary words that are smaller than all their rotations: one for each primitive product."""
+    return tuple(
+        word
+        for length in range(1, longest + 1)
+        for word in product((0, 1), repeat=length)
+        if all(word < word[k:] + word[:k] for k in range(1, length))
+    )
+
+
+def improved(radius: Radius, words: list[tuple[int, ...]]) -> Radius:
+    """The same matrices with the best of some words, if one of them beats the present product."""
+    for word in words:
+        value, lower, leading = _spectral_radius(radius.matrices, word)
+        if lower > radius.lower * ROUNDING**2:
+            radius = replace(radius, word=word, value=value, lower=lower, leading=leading)
+    return radius
