@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Final
+from typing import Final, NamedTuple
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QMouseEvent
@@ -57,8 +56,7 @@ NEIGHBOUR_TIPS: Final[dict[Neighbours, str]] = {
 """What each choice of neighbours does; they agree when alpha = gamma."""
 
 
-@dataclass(frozen=True)
-class Weight:
+class Weight(NamedTuple):
     """One of the three parameters, as the panel presents it."""
 
     name: str

@@ -7,16 +7,14 @@ depends on seeing them. Opposites are told apart as blue and orange, never as re
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
 
-@dataclass(frozen=True)
-class Palette:
+class Palette(NamedTuple):
     """Colours of one scheme, each ``"#rrggbb"``: what Qt, pyqtgraph and SVG all read.
 
     Attributes
@@ -136,8 +134,7 @@ DARK: Final = Palette(
 """The same in the dark: a deep grey ground, a near-white curve, light blue handles."""
 
 
-@dataclass(frozen=True)
-class Sizes:
+class Sizes(NamedTuple):
     """Lengths in logical pixels; the same in both schemes.
 
     Attributes
