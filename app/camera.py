@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,8 +20,7 @@ DEFAULT_SPAN_MM: Final = 200.0
 """Width of the view when there is nothing to fit."""
 
 
-@dataclass(frozen=True)
-class Camera:
+class Camera(NamedTuple):
     """Where the canvas looks at, and how close; both axes have the same scale.
 
     Attributes
@@ -70,7 +68,7 @@ class Camera:
 
     def resized(self, width: int, height: int) -> Camera:
         """Return the same view on a canvas of another size; the middle stays."""
-        return replace(self, width=max(width, 1), height=max(height, 1))
+        return self._replace(width=max(width, 1), height=max(height, 1))
 
     def moved(self, dx_px: float, dy_px: float) -> Camera:
         """Return the view after the paper was pushed by some pixels."""
@@ -120,4 +118,4 @@ class Camera:
 
     def _looking_at(self, x_mm: float, y_mm: float, scale: float) -> Camera:
         x, y = np.clip([x_mm, y_mm], -MAX_CENTRE_MM, MAX_CENTRE_MM)
-        return replace(self, x_mm=float(x), y_mm=float(y), scale=scale)
+        return self._replace(x_mm=float(x), y_mm=float(y), scale=scale)

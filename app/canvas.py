@@ -9,7 +9,6 @@ from PySide6.QtCore import QEvent, QPointF, Qt, Signal
 from PySide6.QtGui import (
     QFocusEvent,
     QHideEvent,
-    QInputDevice,
     QKeyEvent,
     QMouseEvent,
     QNativeGestureEvent,
@@ -179,7 +178,7 @@ class Canvas(Sheet):
     @guarded
     def wheelEvent(self, event: QWheelEvent) -> None:
         device = event.device()
-        is_pad = device is not None and device.type() == QInputDevice.DeviceType.TouchPad
+        is_pad = device is not None and device.type() == device.DeviceType.TouchPad
         turn = event.angleDelta()
         if is_pad and not event.modifiers() & _CTRL:
             way = event.pixelDelta() if not event.pixelDelta().isNull() else turn / 2

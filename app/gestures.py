@@ -6,8 +6,7 @@ from those (position = now + offset, never summed), so it cannot drift, and Esca
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +22,7 @@ from app.session import Selection, Session
 from core.pull import control_weights, pull
 
 
-@dataclass(frozen=True, eq=False)
-class Pointer:
+class Pointer(NamedTuple):
     """The mouse at one moment.
 
     Attributes

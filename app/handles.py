@@ -7,8 +7,7 @@ the one that is drawn last, on top, is taken.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +16,7 @@ DYADIC: Final = 2**10
 """Places on a span that a curve is grabbed at: t is a multiple of 1/1024."""
 
 
-@dataclass(frozen=True)
-class PointHit:
+class PointHit(NamedTuple):
     """A control point near the mouse."""
 
     curve: int
@@ -31,8 +29,7 @@ class PointHit:
         return self.curve, self.point
 
 
-@dataclass(frozen=True)
-class EdgeHit:
+class EdgeHit(NamedTuple):
     """A place on the control polygon: ``share`` of the way from point ``edge`` to the next."""
 
     curve: int
@@ -41,8 +38,7 @@ class EdgeHit:
     distance_px: float
 
 
-@dataclass(frozen=True)
-class CurveHit:
+class CurveHit(NamedTuple):
     """A place on a limit curve, at the parameter ``t``."""
 
     curve: int

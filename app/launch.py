@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import (
-    QEventLoop,
     QMessageLogContext,
     QSettings,
     QTimer,
@@ -95,6 +94,8 @@ def run(
 
 def _draw(window: MainWindow, path: Path | None, picture: Path, size: tuple[int, int]) -> int:
     """Write a picture of the complete window; errors are raised, there is nobody to be asked."""
+    from PySide6.QtCore import QEventLoop  # windows that are shown do not wait for it
+
     if path is not None:
         window.files.show_document(_unasked(path), path)
     loop = QEventLoop()

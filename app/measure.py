@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +22,7 @@ TOLERANCE_MM: Final = 2e-3
 """How far a curve may reach beyond the box, on each side: two decimals are shown."""
 
 
-@dataclass(frozen=True)
-class Size:
+class Size(NamedTuple):
     """Size of a drawing in mm.
 
     Attributes

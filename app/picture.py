@@ -6,7 +6,6 @@ What did not change since the picture before is the same thing again, not only a
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import IntEnum
 from operator import is_
 from typing import Final, NamedTuple
@@ -66,8 +65,7 @@ class Layer(IntEnum):
     NOTICE = 14
 
 
-@dataclass(frozen=True)
-class Setting:
+class Setting(NamedTuple):
     """How a picture is drawn, whatever it shows; with another one nothing of it stays.
 
     Attributes

@@ -7,8 +7,7 @@ differs from the one before by moved points is followed at the cost of the moves
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,8 +35,7 @@ MOST_NEAR: Final = 4000
 """Number of control points around the mouse beyond which none of them can be meant."""
 
 
-@dataclass(frozen=True, eq=False)
-class Overlay:
+class Overlay(NamedTuple):
     """What the hand adds to the picture.
 
     Attributes
@@ -179,7 +177,7 @@ class Scene:
         hit = nearest_point(places, pos_px, radius_px, preferred)
         if hit is None:
             return None
-        return replace(hit, curve=about[hit.curve], point=int(indices[hit.curve][hit.point]))
+        return hit._replace(curve=about[hit.curve], point=int(indices[hit.curve][hit.point]))
 
     def nearest_edge(
         self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1
@@ -193,7 +191,7 @@ class Scene:
         hit = nearest_edge(places, loops, pos_px, radius_px, preferred)
         if hit is None:
             return None
-        return replace(hit, curve=about[hit.curve], edge=int(near[hit.curve][hit.edge]))
+        return hit._replace(curve=about[hit.curve], edge=int(near[hit.curve][hit.edge]))
 
     def nearest_on_curve(
         self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1
@@ -209,7 +207,7 @@ class Scene:
             radius_px,
             preferred,
         )
-        return None if hit is None else replace(hit, curve=about[hit.curve])
+        return None if hit is None else hit._replace(curve=about[hit.curve])
 
     def _near(
         self, pos_px: NDArray[np.float64], radius_px: float, preferred: int

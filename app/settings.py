@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtCore import QByteArray, QPoint, QRect, QSettings, QSize, QStandardPaths
+from PySide6.QtCore import QByteArray, QPoint, QRect, QSettings, QSize
 
 from core.errors import NinepointError
 
@@ -151,6 +151,8 @@ class Settings:
         kept = self._text(key)
         if kept and Path(kept).is_dir():
             return Path(kept)
+        from PySide6.QtCore import QStandardPaths  # the first paint does not wait for it
+
         place = QStandardPaths.StandardLocation.DocumentsLocation
         documents = Path(QStandardPaths.writableLocation(place))
         return documents if documents.is_dir() else Path.home()

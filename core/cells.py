@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +32,7 @@ _ROUNDING: Final = 1e-13
 """Absolute rounding of a value, for data of size 1: sums of some 20 products, through 60 levels."""
 
 
-@dataclass(frozen=True)
-class Interval:
+class Interval(NamedTuple):
     """Numbers between two proven ends; ``upper`` is infinite where no bound is proven."""
 
     lower: float

@@ -21,9 +21,8 @@ covered by the factor `ROUNDING`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,8 +104,7 @@ def size_constant(mask: Mask) -> float:
     return (largest + rest) * ROUNDING
 
 
-@dataclass(frozen=True)
-class Bounds:
+class Bounds(NamedTuple):
     """Constants c of bounds ``c max |D2p|`` on a span, over the second differences that it reads.
 
     Attributes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,8 +41,7 @@ class _Base:
         return np.array([c.min() for c in columns]), np.array([c.max() for c in columns])
 
 
-@dataclass(frozen=True, eq=False)
-class _Moves:
+class _Moves(NamedTuple):
     """What a curve has different from the points of its base.
 
     All of them are ``placed``; then those at rising ``indices`` have other ``positions``.
@@ -178,7 +177,7 @@ class Curve:
                 f"{self.name!r} would leave the sheet: coordinates are at most"
                 f" {MAX_COORDINATE_MM:g} mm."
             )
-        return self._with(replace(before, placed=whole, positions=positions))
+        return self._with(before._replace(placed=whole, positions=positions))
 
     def _with(self, moves: _Moves) -> Curve:
         curve = object.__new__(Curve)

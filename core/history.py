@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from core.document import Document
 
 
-@dataclass(frozen=True)
-class State:
+class State(NamedTuple):
     """A document and the name of the edit that led to it ("Move 3 points")."""
 
     document: Document

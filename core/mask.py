@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 ONE: Final = Fraction(1)
 
 
-@dataclass(frozen=True)
-class Stencil:
+class Stencil(NamedTuple):
     """One refinement or limit rule: the row that makes one new point.
 
     Attributes

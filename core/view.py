@@ -13,8 +13,7 @@ give it, so that only those in the rectangle are followed, at any zoom.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,7 +77,7 @@ def view(
         runs = view(pyramid, low, high, tolerance / placed.stretch, own, budget)
         # The origin's way there and back leaves a rounding.
         vertices = Affine(placed.matrix, placed(own) - shift)(runs.vertices)
-        return replace(runs, vertices=vertices, deviation=runs.deviation * placed.stretch)
+        return runs._replace(vertices=vertices, deviation=runs.deviation * placed.stretch)
     limits = np.concatenate([upper, -np.asarray(lower)])
     found = Chords(shift, budget, pyramid.places)
     if isinstance(pyramid, CurvePyramid) and pyramid.finest is not None:
@@ -126,8 +125,7 @@ def _descend(
     return nodes, np.zeros(0)
 
 
-@dataclass(frozen=True, eq=False)
-class _Parts:
+class _Parts(NamedTuple):
     """What is known of the eight parts of some nodes; the nodes lie along the last axis.
 
     Attributes

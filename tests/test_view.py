@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tracemalloc
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -302,7 +301,7 @@ def test_a_curve_that_is_moved_as_a_whole_needs_no_new_blocks(closed: bool, turn
     assert len(exact) > 10
     np.testing.assert_allclose(seen.vertices + place, exact, atol=1e-8)
     assert seen.deviation <= TOLERANCE_PX / 5 + 1e-11
-    moved = replace(seen, vertices=seen.vertices + place)
+    moved = seen._replace(vertices=seen.vertices + place)
     assert true_error(curve, moved, 2) <= seen.deviation + 1e-8
     dense, t = curve.points(5), curve.parameters(5)
     inside = t[(np.abs(dense - place) <= half).all(axis=1)]
