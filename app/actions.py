@@ -295,10 +295,16 @@ class Actions:
     ----------
     window
         The window that they act on; its `canvas` owns the keys that work only there.
+
+    Attributes
+    ----------
+    ratio
+        Device pixels per logical pixel that the icons are drawn for.
     """
 
     def __init__(self, window: MainWindow) -> None:
         self._window = window
+        self.ratio = 1.0
         self._groups: dict[str, QActionGroup] = {}
         self._made = {command.key: self._make(command) for command in COMMANDS}
         # Menus are shut for now, and their icons would take 5 ms.
@@ -315,7 +321,7 @@ class Actions:
         action.setStatusTip(command.tip)
         sequences = command.sequences
         action.setShortcuts(sequences)
-        keys = f" ({_native(sequences[0])})" if sequences else ""
+        keys = f" ({native(sequences[0])})" if sequences else ""
         action.setToolTip(f"{command.words}{keys}\n{command.tip}")
         if command.reach is Reach.CANVAS:
             action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
@@ -350,7 +356,7 @@ class Actions:
             action, word = self._made[key], key.capitalize()
             action.setEnabled(name is not None)
             action.setText(f"&{word} {name or ''}".rstrip())
-            action.setToolTip(f"{word} {name or ''}".rstrip() + f" ({_native(action.shortcut())})")
+            action.setToolTip(f"{word} {name or ''}".rstrip() + f" ({native(action.shortcut())})")
         has_curve = window.current_curve is not None
         for key in ("closed", "reverse", "delete curve"):
             self._made[key].setEnabled(has_curve)
@@ -372,25 +378,13 @@ class Actions:
         sizes_px
             Their logical sizes; all by default.
         """
-        palette, ratio = self._window.palette(), self._window.devicePixelRatioF()
+        palette, self.ratio = self._window.palette(), self._window.devicePixelRatioF()
         for command in COMMANDS:
             if command.icon and (keys is None or command.key in keys):
-                icon = tinted(command.icon, palette, ratio, sizes_px)
+                icon = tinted(command.icon, palette, self.ratio, sizes_px)
                 self._made[command.key].setIcon(icon)
 
 
-def keys_in_words(command: Command) -> str:
-    """The keys of an action as this system writes them: "Ctrl+Z", "F1 or ?".
-
-    Of a standard key's bindings only the first is told: the others are keys such as "Undo", which
-    few keyboards have.
-    """
-    told: list[QKeySequence] = []
-    for key in command.keys:
-        bound = [QKeySequence(key)] if isinstance(key, str) else QKeySequence.keyBindings(key)[:1]
-        told.extend(sequence for sequence in bound if sequence not in told)
-    return " or ".join(_native(sequence) for sequence in told)
-
-
-def _native(sequence: QKeySequence) -> str:
+def native(sequence: QKeySequence) -> str:
+    """Keys as this system writes them."""
     return sequence.toString(QKeySequence.SequenceFormat.NativeText)

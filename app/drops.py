@@ -72,8 +72,11 @@ class Drops(QObject):
         super().__init__(window)
         self._window = window
         self.hint = DropHint(window.canvas)
-        window.setAcceptDrops(True)
-        window.installEventFilter(self)
+
+    def watch(self) -> None:
+        """Begin to take what is dropped."""
+        self._window.setAcceptDrops(True)
+        self._window.installEventFilter(self)
 
     @guarded
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
-from typing import Final
+from typing import Final, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,25 +29,27 @@ _SIMPLE: Final = 96
 """Vertices of a line up to which all of it is drawn: to choose what is seen would cost more."""
 
 
-class Ink:
-    """A thing on the sheet; two that are equal leave the same ink."""
+class Ink(Protocol):
+    """A thing on the sheet; two of a kind that are equal leave the same ink."""
 
     @property
     def box(self) -> Box:
         """Where it is."""
-        raise NotImplementedError
 
     def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
         """Paint at least what is seen of it in a region: rectangles, shape (r, 4)."""
-        raise NotImplementedError
 
     def unlike(self, other: Ink) -> list[Box]:
         """Boxes, outside of which this thing and another one of its place leave the same ink."""
-        return [] if self == other else [self.box, other.box]
 
 
-@dataclass(frozen=True)
-class Stroke(Ink):
+def both(one: Ink, other: Ink) -> list[Box]:
+    """Boxes of two things; none if they leave the same ink."""
+    return [] if type(one) is type(other) and one == other else [one.box, other.box]
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
     """A line drawn with a solid pen.
 
     The pen's caps are round, so that the pieces of a line meet. Its joins are bevelled: at the
@@ -109,7 +111,7 @@ class Stroke(Ink):
 
 
 @dataclass(frozen=True, eq=False)
-class Area(Ink):
+class Area:
     """A filled outline, such as a ribbon of influence."""
 
     outline: NDArray[np.float64]
@@ -120,14 +122,14 @@ class Area(Ink):
     def box(self) -> Box:
         return around(np.concatenate([self.outline.T, self.outline.T]), SMOOTHED_PX)
 
-    def __eq__(self, other: object) -> bool:
-        return (
-            isinstance(other, Area)
-            and (self.colour, self.opacity) == (other.colour, other.opacity)
-            and np.array_equal(self.outline, other.outline)
-        )
+    def unlike(self, other: Ink) -> list[Box]:
+        if not isinstance(other, Area) or self._look != other._look:
+            return [self.box, other.box]
+        return [] if np.array_equal(self.outline, other.outline) else [self.box, other.box]
 
-    __hash__ = None  # type: ignore[assignment]  # arrays have none
+    @property
+    def _look(self) -> tuple[str, float]:
+        return self.colour, self.opacity
 
     def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
         outline = area_within_square(self.outline)
@@ -141,8 +143,7 @@ class Area(Ink):
         painter.fillPath(path, color(self.colour, self.opacity))
 
 
-@dataclass(frozen=True)
-class Band(Ink):
+class Band(NamedTuple):
     """A rubber band: a rectangle with a border."""
 
     left: float
@@ -183,8 +184,7 @@ class Band(Ink):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
 
-@dataclass(frozen=True, eq=False)
-class Words(Ink):
+class Words(NamedTuple):
     """A few words on a ground of their own.
 
     Attributes
@@ -208,14 +208,8 @@ class Words(Ink):
         left, top, right, bottom = self.ground
         return left - SMOOTHED_PX, top - SMOOTHED_PX, right + SMOOTHED_PX, bottom + SMOOTHED_PX
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Words) and self._all == other._all
-
-    __hash__ = None  # type: ignore[assignment]  # fonts have none
-
-    @property
-    def _all(self) -> tuple[object, ...]:
-        return self.text, self.font, self.ground, self.colour, self.palette
+    def unlike(self, other: Ink) -> list[Box]:
+        return both(self, other)
 
     def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
         left, top, right, bottom = self.ground

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QIcon
+from PySide6.QtGui import QIcon, QKeySequence
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.actions import COMMANDS, MENUS, Reach, keys_in_words
+from app.actions import COMMANDS, MENUS, Command, Reach, native
 
 MOUSE: Final = (
     ("Click", "select a point"),
@@ -121,3 +121,16 @@ def _columns() -> list[list[tuple[str, Rows]]]:
     """The sections in two columns: menus left, canvas and mouse right."""
     sections = sheet()
     return [sections[:-2], sections[-2:]]
+
+
+def keys_in_words(command: Command) -> str:
+    """The keys of an action as this system writes them: "Ctrl+Z", "F1 or ?".
+
+    Of a standard key's bindings only the first is told: the others are keys such as "Undo", which
+    few keyboards have.
+    """
+    told: list[QKeySequence] = []
+    for key in command.keys:
+        bound = [QKeySequence(key)] if isinstance(key, str) else QKeySequence.keyBindings(key)[:1]
+        told.extend(sequence for sequence in bound if sequence not in told)
+    return " or ".join(native(sequence) for sequence in told)

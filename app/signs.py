@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QPainter, QPen, QPixmap
 
-from app.ink import Ink
+from app.ink import Ink, both
 from app.pixel_box import SMOOTHED_PX, Box, around, gathered, meeting
 from app.polyline import point_of, polygon_of
 from app.style import SIZES, color
@@ -24,7 +24,7 @@ _RING_WIDTH: Final = 3.0
 
 
 @dataclass(frozen=True, eq=False)
-class _Points(Ink):
+class _Points:
     """Signs of some control points.
 
     Attributes
@@ -117,8 +117,7 @@ class Dots(_Points):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
 
-@dataclass(frozen=True)
-class Ring(Ink):
+class Ring(NamedTuple):
     """A ring around the control point that a press would take, on whole device pixels as it is."""
 
     x: float
@@ -131,14 +130,16 @@ class Ring(Ink):
         # Half of the picture, and the way to whole pixels.
         return _square(self.x, self.y, SIZES.point_radius + _RING_GAP + _RING_WIDTH / 2 + 1.5)
 
+    def unlike(self, other: Ink) -> list[Box]:
+        return both(self, other)
+
     def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
         radius = SIZES.point_radius + _RING_GAP
         pixmap = _disc(self.colour, 0.35, _RING_WIDTH, None, radius, self.ratio)
         _stamp(painter, pixmap, np.array([[self.x, self.y]]))
 
 
-@dataclass(frozen=True)
-class Grip(Ink):
+class Grip(NamedTuple):
     """A bead on the curve where a press would take it."""
 
     x: float
@@ -149,6 +150,9 @@ class Grip(Ink):
     @property
     def box(self) -> Box:
         return _square(self.x, self.y, SIZES.selected_radius + SIZES.rim_width / 2)
+
+    def unlike(self, other: Ink) -> list[Box]:
+        return both(self, other)
 
     def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
         radius = SIZES.selected_radius

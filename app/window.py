@@ -15,7 +15,6 @@ from app.actions import TOOL_BAR, Actions
 from app.canvas import Canvas
 from app.dialogs import Dialogs
 from app.docks import Docks
-from app.drops import Drops
 from app.files import Files
 from app.guard import guarded
 from app.menus import fill_menu_bar, open_context_menu
@@ -30,6 +29,7 @@ from core.document import Curve
 if TYPE_CHECKING:
     from app.analysis import Analysis, Finding
     from app.clipboard import Clipboard
+    from app.drops import Drops
     from app.exporting import Exporter
     from app.importing import Importer
     from app.map_panel import MapPanel
@@ -100,7 +100,6 @@ class MainWindow(QMainWindow):
         self.tool_bar = self._make_tool_bar()
         fill_menu_bar(self)
         self._connect()
-        self.drops = Drops(self)
         self.resize(*DEFAULT_SIZE)
         self.docks.size()
         self._first_arrangement = self.saveState(STATE_VERSION)
@@ -217,6 +216,13 @@ class MainWindow(QMainWindow):
         panel = MapPanel(self.session)
         self._stops.append(panel.stop)
         return panel
+
+    @cached_property
+    def drops(self) -> Drops:
+        """What takes things that are dragged over the window."""
+        from app.drops import Drops
+
+        return Drops(self)
 
     @property
     def current_curve(self) -> Curve | None:
@@ -360,6 +366,7 @@ class MainWindow(QMainWindow):
         self.setTabOrder([*self.scheme.neighbours.values()][-1], self.curves.list)
         self.setTabOrder(self.curves.list, self.points.table)
         self.commands.tint()
+        self.drops.watch()
         self.docks.plot(self.session)
         if self.shows_slope and self.docks.basis_plot is not None:
             self.docks.basis_plot.show_slope(True)
@@ -368,11 +375,13 @@ class MainWindow(QMainWindow):
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:
-        """After the first paint, load what it did not need."""
+        """After the first paint, load what it did not need; on another screen, draw new icons."""
         super().paintEvent(event)
         if not self._painted:
             self._painted = True
             QTimer.singleShot(0, self, self._complete)
+        elif self.commands.ratio != self.devicePixelRatioF():
+            QTimer.singleShot(0, self, self.commands.tint)
 
     @guarded
     def changeEvent(self, event: QEvent) -> None:
@@ -380,13 +389,6 @@ class MainWindow(QMainWindow):
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and hasattr(self, "commands"):
             self.commands.tint()
-
-    @guarded
-    def event(self, event: QEvent) -> bool:
-        """Draw the icons anew for the pixels of another screen."""
-        if event.type() == QEvent.Type.DevicePixelRatioChange and hasattr(self, "commands"):
-            self.commands.tint()
-        return super().event(event)
 
     @guarded
     def closeEvent(self, event: QCloseEvent) -> None:

@@ -6,9 +6,9 @@ from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
 
 from answers import Answers
-from app.actions import COMMANDS, CONTEXT_MENU, MENUS, TOOL_BAR, Reach, keys_in_words
+from app.actions import COMMANDS, CONTEXT_MENU, MENUS, TOOL_BAR, Reach
 from app.assets import icon_path
-from app.keysheet import KeySheet, sheet
+from app.keysheet import KeySheet, keys_in_words, sheet
 from app.style import DARK
 from app.theme import window_palette
 from app.window import MainWindow

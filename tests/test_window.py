@@ -478,6 +478,15 @@ def test_in_the_table_the_same_keys_copy_numbers(qtbot, window):
     assert window.status.hint.text() == "Copied 1 point as numbers."
 
 
+def test_on_another_screen_the_icons_are_drawn_for_its_pixels(qtbot, window, monkeypatch):
+    ratio = 2.0 * window.devicePixelRatioF()
+    monkeypatch.setattr(window, "devicePixelRatioF", lambda: ratio)
+    window.repaint()
+    qtbot.waitUntil(lambda: window.commands.ratio == ratio)
+    wide = [size.width() for size in window.commands["select"].icon().availableSizes()]
+    assert max(wide) >= 20 * ratio
+
+
 def test_a_screenshot_that_cannot_be_made_is_refused(qtbot, tmp_path):
     with pytest.raises(NinepointError, match=r"missing\.csv"):
         run(tmp_path / "missing.csv", tmp_path / "window.png")
