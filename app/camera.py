@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -47,7 +48,7 @@ class Camera(NamedTuple):
     @property
     def decimals(self) -> int:
         """Decimals of a coordinate in mm that tell one pixel from the next, 0 to 6."""
-        return int(np.clip(np.ceil(np.log10(self.scale)), 0, 6))
+        return min(max(math.ceil(math.log10(self.scale)), 0), 6)
 
     def to_pixels(self, points_mm: ArrayLike) -> NDArray[np.float64]:
         """Pixels of points in millimetres, shape (..., 2)."""

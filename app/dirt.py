@@ -27,6 +27,14 @@ Key = tuple[int, int]
 MOST_RECTANGLES: Final = 12
 """Number of rectangles of a region beyond which they are taken together; Qt pays for each."""
 
+MOST_APART: Final = 4 * MOST_RECTANGLES
+"""Number of boxes apart from each other beyond which all are taken together at once: each that
+comes is compared with all that are there."""
+
+MOST_CHANGES: Final = 64
+"""Number of things that differ beyond which they are taken as a whole: another scheme draws all of
+a thousand curves anew, and no one needs to know where they differ."""
+
 WASTE_PX2: Final = 4000.0
 """Area that two boxes may have more together than apart; as much is painted as fast as a rectangle
 is dealt with."""
@@ -43,15 +51,14 @@ def dirt(before: Mapping[Key, Ink], now: Mapping[Key, Ink]) -> list[Box]:
     before, now
         The things of each picture by their keys, in rising order.
     """
-    boxes: list[Box] = []
-    for key, ink in now.items():
-        known = before.get(key)
-        if known is None:
-            boxes.append(ink.box)
-        elif known is not ink:
-            boxes.extend(known.unlike(ink))
-    boxes.extend(ink.box for key, ink in before.items() if key not in now)
-    return merged(boxes)
+    lone = [ink.box for key, ink in now.items() if key not in before]
+    lone += [ink.box for key, ink in before.items() if key not in now]
+    changed = [
+        (known, ink) for key, ink in now.items() if (known := before.get(key, ink)) is not ink
+    ]
+    if len(changed) > MOST_CHANGES:
+        return _united([*lone, *(ink.box for pair in changed for ink in pair)])
+    return merged([*lone, *(box for known, ink in changed for box in known.unlike(ink))])
 
 
 def merged(boxes: list[Box]) -> list[Box]:
@@ -68,12 +75,18 @@ def merged(boxes: list[Box]) -> list[Box]:
             else:
                 rest.append(other)
         found = [*rest, box]
-    if len(found) <= MOST_RECTANGLES:
-        return found
-    all_of_them = found[0]
-    for box in found:
-        all_of_them = _both(all_of_them, box)
-    return [all_of_them]
+        if len(found) > MOST_APART:
+            return _united(boxes)
+    return found if len(found) <= MOST_RECTANGLES else _united(found)
+
+
+def _united(boxes: list[Box]) -> list[Box]:
+    """The box around all, if anything is in them."""
+    if not boxes:
+        return []
+    left, top, right, bottom = zip(*boxes, strict=True)
+    around = min(left), min(top), max(right), max(bottom)
+    return [around] if around[0] <= around[2] else []
 
 
 def region_of(boxes: list[Box], within: QRect) -> QRegion:

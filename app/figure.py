@@ -16,6 +16,7 @@ from core.errors import NoLimitError
 from core.family import PRESETS, Parameters
 from core.live import LiveCurve
 from core.pyramid import CurvePyramid, PolygonPyramid
+from core.ranges import united
 
 _NONE: Final = np.zeros(0, dtype=np.intp)
 
@@ -140,7 +141,7 @@ class Figure:
             return False
         self._compact = None
         self._live.move(changed, self.placed.inverse(curve.places(changed)))
-        self._pending = np.union1d(self._pending, changed)
+        self._pending = united(self._pending, changed)
         self.curve = curve
         return True
 

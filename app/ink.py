@@ -93,9 +93,8 @@ class Stroke:
             for polygon, is_loop in line.polygons:
                 (painter.drawPolygon if is_loop else painter.drawPolyline)(polygon)
             return
-        met = meeting(line.boxes, region, self.reach)
         # Thin pens round otherwise where a segment has a cap: all have their neighbours.
-        chosen = line.heads[met | met[line.neighbours].any(axis=0)]
+        chosen = line.heads[line.widened(meeting(line.boxes, region, self.reach))]
         if not len(chosen):
             return
         painter.setPen(_pen(*self._pen))

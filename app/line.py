@@ -47,6 +47,9 @@ PIECE: Final = 64
 MOST_IN_PIECE: Final = 256
 """Segments of a piece beyond which it is cut every `PIECE`, counted from its start."""
 
+_FEW: Final = 512
+"""Vertices from the first to the last that differs, up to which none between are looked at."""
+
 UNCUT: Final = np.inf
 """Stride of lines that are not cut."""
 
@@ -96,16 +99,16 @@ class Line:
         ends = self.vertices.T[:, self.heads], self.vertices.T[:, self.heads + 1]
         return np.concatenate([np.minimum(*ends), np.maximum(*ends)])
 
-    @cached_property
-    def neighbours(self) -> NDArray[np.intp]:
-        """Segments before and after each in its piece, or itself where it ends: shape (2, s)."""
-        count = len(self.heads)
-        found = np.stack([np.arange(-1, count - 1), np.arange(1, count + 1)])
-        ends = self.starts - np.arange(len(self.starts))
-        first, last = ends[:-1], ends[1:] - 1
-        found[0, first] = np.where(self._loops, last, first)
-        found[1, last] = np.where(self._loops, first, last)
-        return found
+    def widened(self, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Chosen segments and their neighbours, those over the seam of a loop too, shape (s,)."""
+        wide = chosen.copy()
+        wide[1:] |= chosen[:-1]
+        wide[:-1] |= chosen[1:]
+        for piece in np.flatnonzero(self._loops).tolist():
+            first, last = (int(self.starts[k]) - k for k in (piece, piece + 1))
+            wide[first] |= chosen[last - 1]
+            wide[last - 1] |= chosen[first]
+        return wide
 
     @cached_property
     def _loops(self) -> NDArray[np.bool_]:
@@ -130,6 +133,8 @@ class Line:
     def own(self, other: Line) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Segments of this line that the other one has not, and those that only the other has.
 
+        A few that both have may be among them.
+
         Returns
         -------
         mine, others
@@ -141,23 +146,28 @@ class Line:
         left = count - before
         ends = slice(sizes[0] - left, None), slice(sizes[1] - left, None)
         behind = _leading(self._alike(ends[0], other, ends[1])[::-1])
+        if count - before - behind <= _FEW:
+            mine, others = (
+                (line.heads >= before - 1) & (line.heads < size - behind)
+                for line, size in zip((self, other), sizes, strict=True)
+            )
+            return mine, others
         # Which vertex of the other line each one is, or -1.
         partner = np.arange(sizes[0]), np.arange(sizes[1])
         partner[0][sizes[0] - behind :] += sizes[1] - sizes[0]
         partner[1][sizes[1] - behind :] += sizes[0] - sizes[1]
         for partners, size in zip(partner, sizes, strict=True):
             partners[before : size - behind] = -1
-        if before + behind < count:
-            # Several parts differ, such as those on both sides of a seam. A cut vertex is in both
-            # pieces; the later one of the two begins a piece.
-            inner = np.arange(before, sizes[0] - behind)
-            places = np.searchsorted(other.t, self.t[inner], "left")
-            begins = self.starts[np.searchsorted(self.starts, inner)] == inner
-            places[begins] = np.searchsorted(other.t, self.t[inner[begins]], "right") - 1
-            places = np.minimum(places, sizes[1] - 1)
-            alike = self._alike(inner, other, places)
-            partner[0][inner[alike]] = places[alike]
-            partner[1][places[alike]] = inner[alike]
+        # Several parts may differ, such as those on both sides of a seam. A cut vertex is in both
+        # pieces; the later one of the two begins a piece.
+        inner = np.arange(before, sizes[0] - behind)
+        places = np.searchsorted(other.t, self.t[inner], "left")
+        begins = self.starts[np.searchsorted(self.starts, inner)] == inner
+        places[begins] = np.searchsorted(other.t, self.t[inner[begins]], "right") - 1
+        places = np.minimum(places, sizes[1] - 1)
+        alike = self._alike(inner, other, places)
+        partner[0][inner[alike]] = places[alike]
+        partner[1][places[alike]] = inner[alike]
         mine, others = (
             (partners[line.heads] < 0) | (partners[line.heads + 1] != partners[line.heads] + 1)
             for partners, line in zip(partner, (self, other), strict=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -23,6 +24,10 @@ FAINT: Final = 0.004
 """Share of the hand's move below which an influence is not drawn."""
 
 
+_Breadths = list[tuple[slice, NDArray[np.float64]]]
+"""Vertices of a polyline that have a ribbon, stretch by stretch, and half its breadth there."""
+
+
 @dataclass(frozen=True, eq=False)
 class Influence:
     """How control points follow the hand.
@@ -38,12 +43,12 @@ class Influence:
     curve: int
     indices: NDArray[np.intp]
     shares: NDArray[np.float64]
-    _along: dict[tuple[object, ...], list[NDArray[np.float64]]] = field(default_factory=dict)
+    _along: dict[tuple[object, ...], list[_Breadths]] = field(default_factory=dict)
 
     def along(
         self, limit: LiveCurve, stretches: list[tuple[NDArray[np.intp], int]]
-    ) -> list[NDArray[np.float64]]:
-        """Share of the hand's move that places on the curve follow, for spans and their levels.
+    ) -> list[_Breadths]:
+        """Breadths of the ribbons along a curve, for spans and their levels.
 
         Where the points are makes no difference, so that a drag asks once.
         """
@@ -57,8 +62,18 @@ class Influence:
             limit.move(self.indices, places + way)
             after = [_joined(limit.span_points(*stretch))[:, 0] for stretch in stretches]
             limit.move(self.indices, places)
-            self._along[key] = [np.abs(b - a) for a, b in zip(before, after, strict=True)]
+            self._along[key] = [
+                _breadths(np.abs(b - a)) for a, b in zip(before, after, strict=True)
+            ]
         return self._along[key]
+
+
+def _breadths(share: NDArray[np.float64]) -> _Breadths:
+    """Half the breadths of ribbons by the share of the hand's move that places follow."""
+    strong = np.flatnonzero(share > FAINT)
+    parts = np.split(strong, np.flatnonzero(np.diff(strong) > 1) + 1)
+    wide = [slice(int(part[0]), int(part[-1]) + 1) for part in parts if len(part) > 1]
+    return [(part, SIZES.ribbon_width * np.minimum(share[part], 1.5)) for part in wide]
 
 
 def ribbons(drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
@@ -74,25 +89,20 @@ def ribbons(drawn: Drawn, influence: Influence) -> list[NDArray[np.float64]]:
     placed = drawn.figure.placed
     scale = drawn.camera.scale * placed.stretch
     stretches = [(spans, _level(limit.span_points(spans, 0), scale)) for spans in touched]
-    shares = influence.along(limit, stretches)
     ribbons: list[NDArray[np.float64]] = []
-    for stretch, share in zip(stretches, shares, strict=True):
+    for stretch, breadths in zip(stretches, influence.along(limit, stretches), strict=True):
         line = drawn.camera.to_pixels(placed(_joined(limit.span_points(*stretch))))
-        strong = np.flatnonzero(share > FAINT)
-        ribbons.extend(
-            _ribbon(line[part], share[part])
-            for part in np.split(strong, np.flatnonzero(np.diff(strong) > 1) + 1)
-            if len(part) > 1
-        )
+        ribbons.extend(_ribbon(line[part], half) for part, half in breadths)
     return ribbons
 
 
 def _level(ends: NDArray[np.float64], scale: float) -> int:
     """Dyadic level at which the chords of spans, whose ends are (k, 2, 2), are short enough."""
-    longest = float(np.hypot(*(ends[:, 1] - ends[:, 0]).T).max()) * scale
-    wanted = np.ceil(np.log2(max(longest / RIBBON_STEP_PX, 1.0)))
-    admitted = np.log2(RIBBON_VERTICES / len(ends))
-    return int(np.clip(min(wanted, admitted), 0, 5))
+    ways = ends[:, 1] - ends[:, 0]
+    longest = math.sqrt((ways * ways).sum(axis=1).max()) * scale
+    wanted = math.ceil(math.log2(max(longest / RIBBON_STEP_PX, 1.0)))
+    admitted = math.floor(math.log2(RIBBON_VERTICES / len(ends)))
+    return min(max(min(wanted, admitted), 0), 5)
 
 
 def _joined(spans: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -110,14 +120,12 @@ def _stretches(
     return parts
 
 
-def _ribbon(
-    centre: NDArray[np.float64], share: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Outline of a band about a line, ``share`` of the full breadth wide."""
-    along = np.gradient(centre, axis=0)
-    length = np.hypot(*along.T)
+def _ribbon(centre: NDArray[np.float64], half: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Outline of a band about a line of two vertices or more, ``half`` on either side wide."""
+    steps = centre[1:] - centre[:-1]
+    x, y = np.concatenate([steps[:1], steps[1:] + steps[:-1], steps[-1:]]).T
     # Where points coincide there is no direction, and the band has no breadth.
-    across = np.divide(along[:, ::-1] * (-1, 1), length[:, None],
-                       out=np.zeros_like(along), where=length[:, None] > 0)
-    half = SIZES.ribbon_width * np.minimum(share, 1.5)[:, None] * across
-    return np.concatenate([centre + half, (centre - half)[::-1]])
+    length = np.hypot(x, y)
+    share = half / np.where(length > 0, length, np.inf)
+    across = np.stack([-y * share, x * share], axis=-1)
+    return np.concatenate([centre + across, (centre - across)[::-1]])

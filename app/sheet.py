@@ -178,7 +178,8 @@ class Sheet(QWidget):
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:
-        if self._is_due or self._looks != (palette_of(self), self.devicePixelRatioF()):
+        palette = palette_of(self)
+        if self._is_due or self._looks != (palette, self.devicePixelRatioF()):
             # What differs outside of the event's region is painted by the next event.
             self._renew()
         content = self._content()
@@ -190,7 +191,6 @@ class Sheet(QWidget):
             self._paint_things(painter, event.region() & content.toAlignedRect())
             painter.setClipping(False)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-            palette = palette_of(self)
             if self._marked is not None:
                 for mark in _marks(self._marked):
                     painter.fillRect(mark, color(palette.accent))

@@ -13,6 +13,7 @@ from core.affine import IDENTITY, Affine
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
+from core.ranges import united
 
 if TYPE_CHECKING:
     from core.profiles import Profile
@@ -192,12 +193,14 @@ class Curve:
         """
         if self._moves.base is not other._moves.base:
             return None
-        return np.union1d(self._moves.indices, other._moves.indices)
+        return united(self._moves.indices, other._moves.indices)
 
     def places(self, indices: ArrayLike) -> NDArray[np.float64]:
         """Positions of the points at ``indices`` (k,), shape (k, 2)."""
         chosen = np.asarray(indices, dtype=np.intp)
         moves = self._moves
+        if chosen is moves.indices:
+            return moves.positions.copy()
         positions: NDArray[np.float64] = moves.base.points[chosen]
         if moves.placed is not IDENTITY:
             positions = moves.placed(positions)

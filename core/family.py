@@ -6,7 +6,7 @@ import math
 import re
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from typing import Final, Literal, get_args
 
 from core.errors import ParameterError
@@ -27,6 +27,9 @@ MAX_DENOMINATOR: Final = 10**30
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?", re.ASCII)
 _MAX_DIGITS: Final = 80
+
+_KEPT: Final = 128
+"""Number of masks that are made once only."""
 
 
 def exact(value: Scalar, name: str = "value") -> Fraction:
@@ -146,20 +149,7 @@ class Parameters:
         ``s, d = (z^2 +- z^-2) / 2``. Both are affine in the parameters, and agree when
         alpha = gamma.
         """
-        v, left, right = _displacements()
-        if self.neighbours == "translated":
-            return Mask.combined(
-                (ONE, lagrange()), (self.alpha, left), (self.beta, v), (self.gamma, right)
-            )
-        mean, lean = (self.alpha + self.gamma) / 2, (self.alpha - self.gamma) / 2
-        return Mask.combined(
-            (ONE, lagrange()),
-            (self.beta, v),
-            (mean, left),
-            (mean, right),
-            (lean, left.alternated()),
-            (-lean, right.alternated()),
-        )
+        return _mask(self.alpha, self.beta, self.gamma, self.neighbours)
 
     @property
     def reversed(self) -> Parameters:
@@ -175,6 +165,26 @@ class Parameters:
             if preset.mask == self.mask:
                 return name
         return None
+
+
+@lru_cache(maxsize=_KEPT)
+def _mask(alpha: Fraction, beta: Fraction, gamma: Fraction, neighbours: Neighbours) -> Mask:
+    """Mask of a member; the same object for the same member, which what is kept of it is found by.
+
+    An equal one would be found too, after all of its fractions have been compared.
+    """
+    v, left, right = _displacements()
+    if neighbours == "translated":
+        return Mask.combined((ONE, lagrange()), (alpha, left), (beta, v), (gamma, right))
+    mean, lean = (alpha + gamma) / 2, (alpha - gamma) / 2
+    return Mask.combined(
+        (ONE, lagrange()),
+        (beta, v),
+        (mean, left),
+        (mean, right),
+        (lean, left.alternated()),
+        (-lean, right.alternated()),
+    )
 
 
 def default_box(neighbours: Neighbours) -> dict[str, tuple[Fraction, Fraction]]:

@@ -30,6 +30,16 @@ def around(indices: NDArray[np.intp], before: int, after: int) -> list[tuple[int
     return list(zip(starts.tolist(), stops.tolist(), strict=True))
 
 
+def united(one: NDArray[np.intp], other: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Rising indices that are in one of two rising arrays, or in both.
+
+    In a drag both are mostly the same, or one is empty; that is seen without sorting.
+    """
+    if one is other or not len(other) or np.array_equal(one, other):
+        return one
+    return np.union1d(one, other) if len(one) else other
+
+
 def within(intervals: Iterable[tuple[int, int]], spans: int, closed: bool) -> tuple[range, ...]:
     """Rising disjoint ranges in ``range(spans)``: cut off at open ends, carried over a seam.
 

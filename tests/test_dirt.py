@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor, QImage, QPalette, QRegion
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
-from app.dirt import MOST_RECTANGLES, dirt, merged, region_of
+from app.dirt import MOST_CHANGES, MOST_RECTANGLES, dirt, merged, region_of
 from app.session import Selection
 from app.signs import Ring
 from core.document import Curve, Document
@@ -268,3 +268,16 @@ def test_things_that_are_the_same_leave_no_dirt():
         (box,) = merged(dirt(before, now))
         assert box[0] < 45
         assert box[2] > 55
+
+
+def test_of_many_things_that_differ_all_are_held():
+    count = 3 * MOST_CHANGES
+    rings = [Ring(10.0 * k, 500.0 - k, "#000000", 1.0) for k in range(count)]
+    others = [Ring(ring.x, ring.y + 3.0, "#000000", 1.0) for ring in rings]
+    before, now = ({(1, k): ring for k, ring in enumerate(some)} for some in (rings, others))
+    del before[1, 0], now[1, count - 1]  # things that only one of the pictures has count, too
+    (held,) = dirt(before, now)
+    for ring in [*before.values(), *now.values()]:
+        left, top, right, bottom = ring.box
+        assert held[0] <= left <= right <= held[2]
+        assert held[1] <= top <= bottom <= held[3]

@@ -157,3 +157,8 @@ def test_absurd_parameters_are_refused():
 def test_an_unknown_reading_is_refused():
     with pytest.raises(ParameterError, match="'translated' or 'mirrored'"):
         Parameters(0, 0, 0, "both")
+
+
+def test_equal_members_share_one_mask():
+    assert Parameters("1/7", "-1/2", "3/11").mask is Parameters("2/14", "-0.5", "3/11").mask
+    assert Parameters("1/7", 0, "3/11").mask != Parameters("1/7", 0, "3/11", "mirrored").mask

@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+import app.line
 from app.line import MOST_IN_PIECE, PIECE, UNCUT, WHOLE, Line, line_of, stride_of
 from core.runs import Runs
 
@@ -18,15 +19,15 @@ def runs(*parts):
 
 
 def segments(line):
-    """What tells a segment, as a set: a slow oracle."""
-    found = set()
+    """What tells each segment, in their order: a slow oracle."""
+    found = []
     for first, after in zip(line.starts[:-1], line.starts[1:], strict=True):
         piece = line.vertices[first:after]
         loop = (piece[0] == piece[-1]).all()
         for k in range(first, after - 1):
             caps = (not loop and k == first, not loop and k == after - 2)
             ends = tuple(line.vertices[k : k + 2].ravel().tolist())
-            found.add((line.t[first], line.t[k], line.t[k + 1], *ends, *caps))
+            found.append((line.t[first], line.t[k], line.t[k + 1], *ends, *caps))
     return found
 
 
@@ -65,8 +66,23 @@ def test_a_loop_that_is_seen_whole_meets_itself():
     line = line_of(before, 60, UNCUT)
     (piece,) = line.pieces()
     np.testing.assert_array_equal(piece[0], piece[-1])
-    assert (line.neighbours[:, 0] == (59, 1)).all()
-    assert (line.neighbours[:, -1] == (58, 0)).all()
+    first, last = np.arange(60) == 0, np.arange(60) == 59
+    assert np.flatnonzero(line.widened(first)).tolist() == [0, 1, 59]
+    assert np.flatnonzero(line.widened(last)).tolist() == [0, 58, 59]
+
+
+def test_the_neighbours_of_a_segment_in_a_loop_of_several_are_over_its_own_seam():
+    parts = [np.arange(0.0, count) for count in (5, 7)]
+    loops = [Line(runs(t).vertices, t, np.array([0, len(t)])) for t in parts]
+    for loop in loops:
+        loop.vertices[-1] = loop.vertices[0]
+    line = Line(
+        np.concatenate([loop.vertices for loop in loops]),
+        np.concatenate([loop.t + 100 * place for place, loop in enumerate(loops)]),
+        np.array([0, 5, 12]),
+    )
+    chosen = np.arange(10) == 9
+    assert {4, 8, 9} <= set(np.flatnonzero(line.widened(chosen)).tolist()) <= {3, 4, 8, 9}
 
 
 def test_runs_go_on_over_the_seam_of_a_loop():
@@ -75,8 +91,10 @@ def test_runs_go_on_over_the_seam_of_a_loop():
     assert line.t.tolist() == [10, 11, 57, 58, 60, 61, 62]
 
 
+@pytest.mark.parametrize("few", [0, 512])
 @pytest.mark.parametrize("stride", [UNCUT, 8.0])
-def test_segments_that_only_one_line_has_are_told(stride):
+def test_segments_that_only_one_line_has_are_told(stride, few, monkeypatch):
+    monkeypatch.setattr(app.line, "_FEW", few)
     rng = np.random.default_rng(1)
     t = np.arange(0.0, 61.0)
     line = line_of(runs(t), 60, stride)
@@ -91,8 +109,18 @@ def test_segments_that_only_one_line_has_are_told(stride):
         after = line_of(other, 60, stride)
         for one, two in ((line, after), (after, line)):
             mine, others = one.own(two)
-            assert mine.sum() == len(segments(one) - segments(two))
-            assert others.sum() == len(segments(two) - segments(one))
+            for owner, own, left in ((one, mine, two), (two, others, one)):
+                known = set(segments(left))
+                lone = np.array([segment not in known for segment in segments(owner)])
+                assert not (lone & ~own).any()
+                assert few or not (own & ~lone).any()
+
+
+def test_what_is_before_and_behind_all_changes_is_common():
+    line = line_of(runs(np.arange(0.0, 61.0)), 0, UNCUT)
+    changed = runs([*range(21), 20.5, *range(22, 61)])
+    mine, others = line.own(line_of(changed, 0, UNCUT))
+    assert np.flatnonzero(mine).tolist() == np.flatnonzero(others).tolist() == [20, 21]
 
 
 def test_a_line_has_all_in_common_with_itself_and_nothing_with_none():

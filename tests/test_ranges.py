@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.ranges import around, within
+from core.ranges import around, united, within
 
 
 @given(
@@ -31,3 +31,9 @@ def test_they_hold_what_lies_near_and_nothing_else(
 def test_one_turn_is_everything() -> None:
     assert within([(-3, 8)], 10, closed=True) == (range(10),)
     assert within([], 10, closed=True) == ()
+
+
+@given(st.sets(st.integers(0, 9)), st.sets(st.integers(0, 9)))
+def test_united_is_the_union(one: set[int], other: set[int]) -> None:
+    arrays = [np.array(sorted(some), dtype=np.intp) for some in (one, other)]
+    assert united(*arrays).tolist() == sorted(one | other)
