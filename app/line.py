@@ -146,7 +146,8 @@ class Line:
         left = count - before
         ends = slice(sizes[0] - left, None), slice(sizes[1] - left, None)
         behind = _leading(self._alike(ends[0], other, ends[1])[::-1])
-        if count - before - behind <= _FEW:
+        # Where both ends differ the seam of a loop is among what moves, and its middle stays.
+        if count - before - behind <= _FEW and (before or behind or not count):
             mine, others = (
                 (line.heads >= before - 1) & (line.heads < size - behind)
                 for line, size in zip((self, other), sizes, strict=True)
