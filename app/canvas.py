@@ -243,7 +243,8 @@ class Canvas(Sheet):
 
     def _draw(self) -> None:
         super()._draw()
-        self._tell()
+        if not self._hand.is_busy:  # else the hint has been told, and hangs on the hand alone
+            self._tell()
 
     def _tell(self) -> None:
         """Announce the hint if it is another one."""

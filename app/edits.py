@@ -45,7 +45,8 @@ def shifted(
                 continue
             except NinepointError:  # only some of the points stop at the edge
                 pass
-        places = np.clip(curve.places(members) + shift, -MAX_COORDINATE_MM, MAX_COORDINATE_MM)
+        places = np.minimum(curve.places(members) + shift, MAX_COORDINATE_MM)
+        places = np.maximum(places, -MAX_COORDINATE_MM)
         document = document.with_curve(index, curve.moved(members, places))
     return document
 

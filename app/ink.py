@@ -98,12 +98,12 @@ class Stroke:
         if not len(chosen):
             return
         painter.setPen(_pen(*self._pen))
-        gaps = np.flatnonzero(np.diff(chosen) > 1) + 1
-        firsts = chosen[np.concatenate([[0], gaps])]
-        lasts = chosen[np.concatenate([gaps - 1, [len(chosen) - 1]])] + 1
+        is_gap = chosen[1:] > chosen[:-1] + 1
+        firsts = np.append(chosen[:1], chosen[1:][is_gap])
+        lasts = np.append(chosen[:-1][is_gap], chosen[-1:]) + 1
         pieces = np.searchsorted(line.starts, firsts, "right") - 1
-        edges = np.flatnonzero(np.diff(pieces, prepend=-1, append=-1))
-        for low, high in pairwise(edges.tolist()):
+        edges = (np.flatnonzero(pieces[1:] > pieces[:-1]) + 1).tolist()
+        for low, high in pairwise([0, *edges, len(pieces)]):
             piece = int(pieces[low])
             start, end = int(line.starts[piece]), int(line.starts[piece + 1]) - 1
             _stroke(painter, line.vertices, start, end, firsts[low:high], lasts[low:high])

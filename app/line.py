@@ -126,7 +126,7 @@ class Line:
     def _names(self) -> NDArray[np.complex128]:
         """Name of the piece of each vertex, and i where the pen has a cap, shape (k,)."""
         starts = self.starts
-        names = np.repeat(self.t[starts[:-1]] + 0j, np.diff(starts))
+        names = np.repeat(self.t[starts[:-1]] + 0j, starts[1:] - starts[:-1])
         names.imag[starts[:-1]] = names.imag[starts[1:] - 1] = ~self._loops
         return names
 

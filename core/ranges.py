@@ -35,9 +35,11 @@ def united(one: NDArray[np.intp], other: NDArray[np.intp]) -> NDArray[np.intp]:
 
     In a drag both are mostly the same, or one is empty; that is seen without sorting.
     """
-    if one is other or not len(other) or np.array_equal(one, other):
+    if one is other or not len(other):
         return one
-    return np.union1d(one, other) if len(one) else other
+    if not len(one) or (len(one) == len(other) and (one == other).all()):
+        return other
+    return np.union1d(one, other)
 
 
 def within(intervals: Iterable[tuple[int, int]], spans: int, closed: bool) -> tuple[range, ...]:
