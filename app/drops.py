@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QMimeData, QObject, QPoint, Qt, QTimer
-from PySide6.QtGui import QDragMoveEvent, QDropEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtCore import QMimeData, QObject, QPoint, Qt, QTimer
+from PySide6.QtGui import QDropEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QLabel, QWidget
 
 from app.guard import guarded
@@ -60,7 +60,7 @@ class DropHint(QLabel):
 
 
 class Drops(QObject):
-    """Watches a window for what is dragged over it.
+    """Takes what is dragged over a window and dropped there.
 
     Parameters
     ----------
@@ -73,36 +73,27 @@ class Drops(QObject):
         self._window = window
         self.hint = DropHint(window.canvas)
 
-    def watch(self) -> None:
-        """Begin to take what is dropped."""
-        self._window.setAcceptDrops(True)
-        self._window.installEventFilter(self)
+    def enter(self, event: QDropEvent) -> None:
+        """Say what a drop would do, and take it if that is anything."""
+        self.hint.say(self.promise(event.mimeData()))
+        self.move(event)
 
-    @guarded
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Take what can be opened, imported or pasted."""
-        if isinstance(event, QDropEvent):  # the events of entering and moving are such, too
-            if event.type() == QEvent.Type.Drop:
-                return self._drop(event)
-            return self._drag(event)
-        if event.type() == QEvent.Type.DragLeave:
-            self.hint.say("")
-        return False
+    def move(self, event: QDropEvent) -> None:
+        """Take a drop at this place, too, if any."""
+        if self.hint.text() and not self.hint.isHidden():
+            event.setDropAction(Qt.DropAction.CopyAction)
+            event.accept()
 
-    def _drag(self, event: QDropEvent) -> bool:
-        if event.type() == QEvent.Type.DragEnter:
-            self.hint.say(self.promise(event.mimeData()))
-        if not self.hint.text() or self.hint.isHidden():
-            return False
-        event.setDropAction(Qt.DropAction.CopyAction)
-        event.accept()
-        return isinstance(event, QDragMoveEvent)
+    def leave(self) -> None:
+        """Say nothing any more."""
+        self.hint.say("")
 
-    def _drop(self, event: QDropEvent) -> bool:
+    def drop(self, event: QDropEvent) -> None:
+        """Open, import or paste what is dropped."""
         self.hint.say("")
         data = event.mimeData()
         if not self.promise(data):
-            return False
+            return
         event.setDropAction(Qt.DropAction.CopyAction)
         event.accept()
         paths = _paths(data)
@@ -114,7 +105,6 @@ class Drops(QObject):
             QTimer.singleShot(0, self, lambda: self._take(paths))
         else:
             QTimer.singleShot(0, self, lambda: self._window.clipboard.paste_data(kept, place))
-        return True
 
     def promise(self, data: QMimeData) -> str:
         """What a drop would do; "" if nothing can be done with it."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QPaintEvent
-from PySide6.QtWidgets import QMainWindow, QToolBar, QWidget
+from PySide6.QtWidgets import QToolBar, QWidget
 
 from app.actions import TOOL_BAR, Actions
 from app.canvas import Canvas
@@ -17,6 +17,7 @@ from app.dialogs import Dialogs
 from app.docks import Docks
 from app.files import Files
 from app.guard import guarded
+from app.landing import Landing
 from app.menus import fill_menu_bar, open_context_menu
 from app.opening import ready_document
 from app.point_set import PointSet
@@ -43,7 +44,7 @@ TOOL_ICON_PX: Final = 20
 """Size of the icons in the tool bar."""
 
 
-class MainWindow(QMainWindow):
+class MainWindow(Landing):
     """Everything that a user sees.
 
     Parameters
@@ -219,7 +220,7 @@ class MainWindow(QMainWindow):
 
     @cached_property
     def drops(self) -> Drops:
-        """What takes things that are dragged over the window."""
+        """What takes what is dropped."""
         from app.drops import Drops
 
         return Drops(self)
@@ -366,7 +367,6 @@ class MainWindow(QMainWindow):
         self.setTabOrder([*self.scheme.neighbours.values()][-1], self.curves.list)
         self.setTabOrder(self.curves.list, self.points.table)
         self.commands.tint()
-        self.drops.watch()
         self.docks.plot(self.session)
         if self.shows_slope and self.docks.basis_plot is not None:
             self.docks.basis_plot.show_slope(True)
