@@ -5,12 +5,17 @@ from app.paced import Paced
 
 
 @pytest.fixture
-def taken(qtbot):
-    """A list of values, and what paces those that go there."""
+def parent(qtbot):
     widget = QWidget()
     qtbot.addWidget(widget)
+    return widget
+
+
+@pytest.fixture
+def taken(parent):
+    """A list of values, and what paces those that go there."""
     values = []
-    yield values, Paced(values.append, 10, widget)
+    return values, Paced(values.append, 10, parent)
 
 
 def test_the_first_value_is_handed_on_at_once_and_then_the_newest(qtbot, taken):
