@@ -81,6 +81,7 @@ class LimitCurve:
         self._coordinates = coordinates
         # One view for many products: to make it costs more than a small one.
         self._windows = _windows(coordinates, mask.end - mask.start + 1, self.spans)
+        self._cells: NDArray[np.float64] | None = None
 
     @property
     def endless_points(self) -> NDArray[np.float64]:
@@ -119,8 +120,10 @@ class LimitCurve:
                 curve = np.concatenate([curve, polygon[-1:].T], axis=1)
         else:
             # Cells read one point less than spans do; the first begins half a span before t = 0.
-            windows = _windows(self._coordinates, self.mask.end - self.mask.start, self.spans + 1)
-            cells = _product(windows, self._basis.cell_table(level)[:, :-1]).reshape(2, -1)
+            if self._cells is None:
+                size = self.mask.end - self.mask.start
+                self._cells = _windows(self._coordinates, size, self.spans + 1)
+            cells = _product(self._cells, self._basis.cell_table(level)[:, :-1]).reshape(2, -1)
             first = 2 ** (level - 1)
             curve = cells[:, first : first + (self.spans << level) + (not self.closed)]
         if not self.closed:
