@@ -22,6 +22,7 @@ from app.guard import guarded
 from app.hand import Hand
 from app.measure import Measure
 from app.nudging import Nudging
+from app.paced import Paced
 from app.point_set import PointSet
 from app.scene import Overlay
 from app.session import Selection, Session
@@ -33,6 +34,10 @@ NOTCH: Final = 120
 
 NOTCH_FACTOR: Final = 1.2
 """Zoom of one notch."""
+
+FOLLOW_MS: Final = 40
+"""Least time between two texts that follow the mouse: to write and paint them takes as long as a
+tenth of a frame, and nobody reads faster."""
 
 PINCH_LEAST: Final = 0.1
 """Least factor of one step of a pinch."""
@@ -77,6 +82,8 @@ class Canvas(Sheet):
         self._hand = Hand(self, Nudging(session, self))
         self.measure = Measure(session, lambda: self.scene.curves, self)
         self._hint = self._message = ""
+        self._shape = self.cursor().shape()
+        self._news = Paced(self._tell_place, FOLLOW_MS, self)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
@@ -99,7 +106,7 @@ class Canvas(Sheet):
     @property
     def hint(self) -> str:
         """What mouse and keys do now."""
-        return self._hint
+        return self._message or (self._hand.hint if self._scene.has_limit else NO_LIMIT_HINT)
 
     def set_tool(self, name: str) -> None:
         """Take a tool into the hand: "select", "pen" or "hand"; what is begun is finished.
@@ -166,9 +173,11 @@ class Canvas(Sheet):
 
     @guarded
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        position = event.position()
         self._hand.move(event.buttons(), _pointer(event))
-        self._follow(event.position())
-        self._after_input()
+        self.mark_mouse(position)
+        self._show_hand()
+        self._news.offer(position)
 
     @guarded
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
@@ -238,8 +247,9 @@ class Canvas(Sheet):
     @guarded
     def leaveEvent(self, event: QEvent) -> None:
         self._hand.leave()
-        self._follow(None)
-        self._after_input()
+        self.mark_mouse(None)
+        self._news.settle(None)
+        self._show_hand()
 
     def _draw(self) -> None:
         super()._draw()
@@ -248,28 +258,32 @@ class Canvas(Sheet):
 
     def _tell(self) -> None:
         """Announce the hint if it is another one."""
-        hint = self._message or (self._hand.hint if self._scene.has_limit else NO_LIMIT_HINT)
+        hint = self.hint
         if hint != self._hint:
             self._hint = hint
             self.hint_changed.emit(hint)
 
     def _after_input(self) -> None:
-        """Show what an event has changed in the hand."""
-        if not self.overlay.resembles(self._shown_overlay):
-            self.refresh()
-        shape = self._hand.tool.cursor
-        if self.cursor().shape() != shape:
-            self.setCursor(shape)
+        """Show what an event has changed in the hand, and say what can be done now."""
+        self._show_hand()
         self._tell()
 
-    def _follow(self, position: QPointF | None) -> None:
-        """Mark the mouse on the rulers and announce where it is."""
-        self.mark_mouse(position)
+    def _show_hand(self) -> None:
+        if not self._is_stale and not self.overlay.resembles(self._shown_overlay):
+            self.refresh()
+        shape = self._hand.tool.cursor
+        if shape is not self._shape:
+            self._shape = shape
+            self.setCursor(shape)
+
+    def _tell_place(self, position: QPointF | None) -> None:
+        """Announce where the mouse is, and the hint, which may tell how far it has moved."""
         if position is None:
             self.cursor_moved.emit(None)
         else:
-            x, y = self.camera.to_mm(place_px(position))
-            self.cursor_moved.emit((float(x), float(y)))
+            x, y = self.camera.to_mm(place_px(position)).tolist()
+            self.cursor_moved.emit((x, y))
+        self._tell()
 
 
 def _pointer(event: QMouseEvent) -> Pointer:

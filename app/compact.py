@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from app.spans import span_vertices
+from app.spans import SpanVertices
 from core.affine import Affine
 from core.chords import size_constant
 from core.document import Curve
@@ -32,14 +32,18 @@ class Compact:
         Its limit curve, before ``placed``; None when the scheme has none, or nothing is proven.
     placed
         Where the limit curve lies.
+    spans
+        All spans of the limit curve, kept from one curve to the next.
 
     Notes
     -----
     It is made for a curve as it is: after a change another one is due.
     """
 
-    def __init__(self, curve: Curve, limit: LiveCurve | None, placed: Affine) -> None:
-        self._curve, self._limit, self._placed = curve, limit, placed
+    def __init__(
+        self, curve: Curve, limit: LiveCurve | None, placed: Affine, spans: SpanVertices
+    ) -> None:
+        self._curve, self._limit, self._placed, self._spans = curve, limit, placed, spans
         self._vertices: tuple[float, Vertices | None] | None = None
 
     @cached_property
@@ -70,12 +74,12 @@ class Compact:
         return low, high
 
     def vertices(self, tolerance: float) -> Vertices | None:
-        """Vertices of all of the limit curve, as fine as `app.spans.span_vertices` makes them."""
+        """Vertices of all of the limit curve, as fine as `app.spans` makes them."""
         limit = self._limit
         if limit is None or not limit.spans:
             return None
         if self._vertices is None or self._vertices[0] != tolerance:
-            found = span_vertices(limit, range(limit.spans), tolerance / self._placed.stretch)
+            found = self._spans.of(limit, tolerance / self._placed.stretch)
             placed = None if found is None else (found[0], self._placed(found[1]))
             self._vertices = tolerance, placed
         return self._vertices[1]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from app.camera import Camera
 from app.compact import SHORT, Compact, Vertices
 from app.figure import Figure
 from app.line import Line, line_of, stride_of
+from app.polyline import SNAPPED_PX, snapped
 from core.document import Curve
 from core.family import Parameters
 from core.live import LiveCurve
@@ -20,8 +21,12 @@ from core.picking import nearest_place, points_within
 from core.runs import Runs
 from core.view import view
 
-TOLERANCE_PX: Final = 0.25
-"""Admitted distance between the curve and its drawn chords, in device pixels."""
+if TYPE_CHECKING:
+    from app.splice import Splice
+
+TOLERANCE_PX: Final = 0.25 - SNAPPED_PX
+"""Admitted distance between the curve and its chords, in device pixels. Their ends are snapped,
+too, so that what is drawn is off by a quarter of one at most."""
 
 MOST_HANDLES: Final = 2000
 """Number of control points in view beyond which they are not shown: they would be a blot."""
@@ -55,29 +60,30 @@ class Drawn:
         The scheme that draws it.
     figure
         What it is drawn from; it may stand for another curve meanwhile, `limit` calls it back.
-    camera
-        The view.
+    camera, ratio
+        The view, and device pixels per logical pixel.
     outline, polygon
-        Vertices of limit curve and control polygon, in pixels; a loop that is seen whole ends where
-        it starts.
+        Vertices of limit curve and control polygon, in pixels, the first ones snapped
+        (`app.polyline`); a loop that is seen whole ends where it starts.
     shown
         Indices of the control points in view, shape (h,); None if they are too many, or too close
         together, to be shown.
     strides
         Distances in t of the cuts of outline and polygon, see `app.line.stride_of`.
-    base
-        What this one was made from by a few moves; None if it was made from the levels of detail.
+    splice
+        How this one was made by a few moves; None if it was made from the levels of detail.
     """
 
     curve: Curve
     scheme: Parameters
     figure: Figure
     camera: Camera
+    ratio: float
     outline: Runs
     polygon: Runs
     shown: NDArray[np.intp] | None
     strides: tuple[float, float]
-    base: Drawn | None = None
+    splice: Splice | None = None
 
     @property
     def parameters(self) -> NDArray[np.float64]:
@@ -207,7 +213,8 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
         figure.parameters,
         figure,
         camera,
-        outline.carried(flip, shift),
+        ratio,
+        outline._replace(vertices=snapped(outline.vertices * flip + shift, ratio)),
         polygon.carried(flip, shift),
         shown,
         (stride_of(outline), stride_of(polygon)),

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.compact import SHORT, Compact
+from app.spans import SpanVertices
 from core.affine import IDENTITY
 from core.blocks import Blocks
 from core.chords import bounds
@@ -58,6 +59,7 @@ class Figure:
         self._blocks: Blocks | None = None
         self._outline: CurvePyramid | None = None
         self._compact: Compact | None = None
+        self._spans = SpanVertices(range(self._live.spans))
         self._has_limit = self._is_proven = False
         self._cast()
 
@@ -105,7 +107,7 @@ class Figure:
         """All of a short curve, kept until it changes; None of a longer one, or of none."""
         if self._compact is None and 0 < self.curve.count <= SHORT:
             limit = self._live if self.is_proven else None
-            self._compact = Compact(self.curve, limit, self.placed)
+            self._compact = Compact(self.curve, limit, self.placed, self._spans)
         return self._compact
 
     def follow(self, curve: Curve, parameters: Parameters) -> bool:
@@ -140,7 +142,7 @@ class Figure:
         if changed is None:
             return False
         self._compact = None
-        self._live.move(changed, self.placed.inverse(curve.places(changed)))
+        self._live.put(changed, self.placed.inverse(curve.places(changed)))
         self._pending = united(self._pending, changed)
         self.curve = curve
         return True

@@ -244,6 +244,7 @@ class PullCurve(_Edit):
         curve = self._origin.curves[hit.curve]
         self._curve, self._mask = curve, self._origin.parameters.mask
         indices, weights = control_weights(curve.count, self._mask, curve.is_loop, hit.t)
+        indices.flags.writeable = False  # so that it is known again with each move
         self._place_mm = weights @ curve.places(indices)
         self._influences = (Influence(hit.curve, indices, weights / (weights @ weights)),)
 
@@ -257,7 +258,8 @@ class PullCurve(_Edit):
         self._way_mm = one_axis(way) if pointer.shift else way
         target = self._place_mm + self._way_mm
         curve = self._curve
-        indices, places = pull(curve.points, self._mask, curve.is_loop, self._hit.t, target)
+        _, places = pull(curve.points, self._mask, curve.is_loop, self._hit.t, target)
+        indices = self._influences[0].indices
         self._session.adjust(with_moved(self._origin, self._hit.curve, indices, places))
 
 

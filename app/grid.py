@@ -161,7 +161,7 @@ class Background:
     def pixmap(
         self, camera: Camera, palette: Palette, ratio: float, font: QFont, with_grid: bool
     ) -> QPixmap:
-        """Return the picture for a view.
+        """Return the picture for a view; for another view, another one.
 
         Parameters
         ----------
@@ -178,8 +178,7 @@ class Background:
         if key != self._key:
             self._key = key
             wide, high = round(camera.width * ratio), round(camera.height * ratio)
-            if (self._pixmap.width(), self._pixmap.height()) != (wide, high):
-                self._pixmap = QPixmap(wide, high)
+            self._pixmap = QPixmap(wide, high)
             self._pixmap.setDevicePixelRatio(ratio)
             step = view_step(camera, QFontMetricsF(ruler_font(font)))
             # Upright lines are the same in all rows: rows are copied faster than columns drawn.

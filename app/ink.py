@@ -10,23 +10,18 @@ painted; outside it may leave less.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from itertools import pairwise
-from typing import Final, NamedTuple, Protocol
+from functools import lru_cache
+from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QPainter, QPainterPath, QPen
+from PySide6.QtGui import QBrush, QFont, QPainter, QPainterPath, QPen, QPolygonF
 
 from app.line import Line
-from app.pixel_box import SMOOTHED_PX, Box, around, gathered, meeting
-from app.polyline import area_within_square, point_of, polygon_of
+from app.outline import MITRED, path_of
+from app.pixel_box import SMOOTHED_PX, Box
+from app.polyline import point_of
 from app.style import Palette, color
-
-_SIMPLE: Final = 96
-"""Vertices of a line up to which all of it is drawn: to choose what is seen would cost more."""
 
 
 class Ink(Protocol):
@@ -36,8 +31,8 @@ class Ink(Protocol):
     def box(self) -> Box:
         """Where it is."""
 
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        """Paint at least what is seen of it in a region: rectangles, shape (r, 4)."""
+    def paint(self, painter: QPainter, seen: Box) -> None:
+        """Paint at least what is seen of it in a box."""
 
     def unlike(self, other: Ink) -> list[Box]:
         """Boxes, outside of which this thing and another one of its place leave the same ink."""
@@ -48,98 +43,64 @@ def both(one: Ink, other: Ink) -> list[Box]:
     return [] if type(one) is type(other) and one == other else [one.box, other.box]
 
 
-@dataclass(frozen=True, eq=False)
 class Stroke:
-    """A line drawn with a solid pen.
+    """A line in one colour, as broad as it says itself or as a pen.
 
-    The pen's caps are round, so that the pieces of a line meet. Its joins are bevelled: at the
-    blunt corners of a curve's chords Qt's round joins blacken single pixels where the curve runs
-    level (measured: coverage off by 0.53, bevelled or mitred by 0.38), and mitred ones take two
-    thirds more time for the same pixels.
+    Parameters
+    ----------
+    line
+        Its middle.
+    colour, opacity
+        What it is drawn with.
+    width
+        Breadth of the pen, in logical pixels; of a line with a breadth of its own, none.
+    is_thin
+        Whether the pen is at most a device pixel wide: Qt draws such lines by a way of its own,
+        several times faster than it fills them.
+
+    Attributes
+    ----------
+    box
+        Where it is.
+    reach
+        How far from its middle it leaves ink.
     """
 
-    line: Line
-    colour: str
-    width: float
-    opacity: float = 1.0
-
-    @property
-    def reach(self) -> float:
-        """How far from its middle the pen leaves ink."""
-        return self.width / 2 + SMOOTHED_PX
-
-    @cached_property
-    def box(self) -> Box:
-        places = self.line.vertices.T
-        return around(np.concatenate([places, places]), self.reach)
+    def __init__(
+        self, line: Line, colour: str, width: float, opacity: float = 1.0, is_thin: bool = False
+    ) -> None:
+        self.line, self.is_thin = line, is_thin
+        self.colour, self.width, self.opacity = colour, width, opacity
+        half = width / 2 if line.halves is None else float(line.halves.max())
+        self.reach = reach = MITRED * half + SMOOTHED_PX
+        left, top, right, bottom = line.box
+        self.box: Box = left - reach, top - reach, right + reach, bottom + reach
+        self._look = colour, width, opacity, is_thin, line.halves is None
+        self._paths: dict[int, QPainterPath] = {}
+        self._polygons: dict[int, tuple[QPolygonF, bool]] = {}
 
     def unlike(self, other: Ink) -> list[Box]:
-        if not isinstance(other, Stroke) or self._pen != other._pen:
+        if not isinstance(other, Stroke) or self._look != other._look:
             return [self.box, other.box]
         if self.line is other.line:
             return []
-        mine, others = self.line.own(other.line)
-        parts = np.concatenate([self.line.boxes[:, mine], other.line.boxes[:, others]], axis=1)
-        return gathered(parts, self.reach)
+        return self.line.unlike(other.line, max(self.reach, other.reach))
 
-    @property
-    def _pen(self) -> tuple[str, float, float]:
-        return self.colour, self.width, self.opacity
-
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        line = self.line
-        if len(line.t) <= _SIMPLE:
-            painter.setPen(_pen(*self._pen))
-            for polygon, is_loop in line.polygons:
+    def paint(self, painter: QPainter, seen: Box) -> None:
+        near = self.line.near(seen, self.reach)
+        if self.is_thin:
+            painter.setPen(_pen(self.colour, self.width, self.opacity))
+            for piece in near:
+                if piece not in self._polygons:
+                    self._polygons[piece] = self.line.polygon(piece)
+                polygon, is_loop = self._polygons[piece]
                 (painter.drawPolygon if is_loop else painter.drawPolyline)(polygon)
             return
-        # Thin pens round otherwise where a segment has a cap: all have their neighbours.
-        chosen = line.heads[line.widened(meeting(line.boxes, region, self.reach))]
-        if not len(chosen):
-            return
-        painter.setPen(_pen(*self._pen))
-        is_gap = chosen[1:] > chosen[:-1] + 1
-        firsts = np.append(chosen[:1], chosen[1:][is_gap])
-        lasts = np.append(chosen[:-1][is_gap], chosen[-1:]) + 1
-        pieces = np.searchsorted(line.starts, firsts, "right") - 1
-        edges = (np.flatnonzero(pieces[1:] > pieces[:-1]) + 1).tolist()
-        for low, high in pairwise([0, *edges, len(pieces)]):
-            piece = int(pieces[low])
-            start, end = int(line.starts[piece]), int(line.starts[piece + 1]) - 1
-            _stroke(painter, line.vertices, start, end, firsts[low:high], lasts[low:high])
-
-
-@dataclass(frozen=True, eq=False)
-class Area:
-    """A filled outline, such as a ribbon of influence."""
-
-    outline: NDArray[np.float64]
-    colour: str
-    opacity: float
-
-    @cached_property
-    def box(self) -> Box:
-        return around(np.concatenate([self.outline.T, self.outline.T]), SMOOTHED_PX)
-
-    def unlike(self, other: Ink) -> list[Box]:
-        if not isinstance(other, Area) or self._look != other._look:
-            return [self.box, other.box]
-        return [] if np.array_equal(self.outline, other.outline) else [self.box, other.box]
-
-    @property
-    def _look(self) -> tuple[str, float]:
-        return self.colour, self.opacity
-
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        outline = area_within_square(self.outline)
-        if not len(outline):
-            return
-        # As a polygon it would take twice the time.
-        path = QPainterPath()
-        path.addPolygon(polygon_of(outline))
-        path.closeSubpath()
-        path.setFillRule(Qt.FillRule.WindingFill)
-        painter.fillPath(path, color(self.colour, self.opacity))
+        ink = _brush(self.colour, self.opacity)
+        for piece in near:
+            if piece not in self._paths:
+                self._paths[piece] = path_of(self.line.outline(piece, self.width / 2))
+            painter.fillPath(self._paths[piece], ink)
 
 
 class Band(NamedTuple):
@@ -174,7 +135,7 @@ class Band(NamedTuple):
             (low[0], low[1], high[0], top), (low[0], bottom, high[0], high[1]),
         ]  # fmt: skip
 
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
+    def paint(self, painter: QPainter, seen: Box) -> None:
         box = QRectF(_point(self.left, self.top), _point(self.right, self.bottom))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         painter.fillRect(box, color(self.colour, 0.10))
@@ -210,7 +171,7 @@ class Words(NamedTuple):
     def unlike(self, other: Ink) -> list[Box]:
         return both(self, other)
 
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
+    def paint(self, painter: QPainter, seen: Box) -> None:
         left, top, right, bottom = self.ground
         box = QRectF(left, top, right - left, bottom - top)
         painter.setFont(self.font)
@@ -220,30 +181,6 @@ class Words(NamedTuple):
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(color(self.colour))
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, self.text)
-
-
-def _stroke(
-    painter: QPainter,
-    vertices: NDArray[np.float64],
-    start: int,
-    end: int,
-    firsts: NDArray[np.intp],
-    lasts: NDArray[np.intp],
-) -> None:
-    """Draw stretches ``first`` to ``last`` of the piece from ``start`` to ``end``, as one path."""
-    is_loop = bool((vertices[start] == vertices[end]).all())
-    if is_loop and firsts[0] == start and lasts[-1] == end:
-        # A thin pen's ink depends, in the last bit, on the order of the segments: the seam is kept.
-        painter.drawPolygon(polygon_of(vertices[start:end]))
-        return
-    stretches = [vertices[a : b + 1] for a, b in zip(firsts, lasts, strict=True)]
-    if len(stretches) == 1:
-        painter.drawPolyline(polygon_of(stretches[0]))
-        return
-    path = QPainterPath()
-    for stretch in stretches:
-        path.addPolygon(polygon_of(stretch))
-    painter.drawPath(path)
 
 
 def _point(x: float, y: float) -> QPointF:
@@ -256,3 +193,8 @@ def _pen(colour: str, width: float, opacity: float) -> QPen:
         color(colour, opacity), width, Qt.PenStyle.SolidLine,
         Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.BevelJoin,
     )  # fmt: skip
+
+
+@lru_cache(maxsize=32)
+def _brush(colour: str, opacity: float) -> QBrush:
+    return QBrush(color(colour, opacity))

@@ -1,27 +1,23 @@
-"""A line as it is stroked: in pieces whose cuts stay where they are when a part of it moves.
+"""A line as it is drawn: in pieces whose cuts stay where they are when a part of it moves.
 
 Definitions
 -----------
-A *piece* is stroked at once, so it has no seam and covers no pixel twice; it is known by the t of
-its first vertex. A *vertex* is known by its piece, its t, its place, and whether the pen has a cap
-there because the piece ends. Two lines have a *segment* in common if in both the same two vertices
-follow each other.
+A *piece* is drawn at once, so it has no seam and covers no pixel twice; it is known by the t of its
+first vertex. A *vertex* is known by its piece, its t, its place and breadth, and whether the line
+has an end there. A *segment* is common to two lines if in both the same two vertices follow each
+other.
 
 Notes
 -----
-Theorem: outside the padded boxes of the segments that they do not have in common, two lines drawn
-with one pen are the same picture, in every bit.
+Theorem: outside the padded boxes of the segments that are not common, and of the neighbours of
+those, two lines are the same picture, in every bit.
 
-Proof. Qt draws a piece with a wide pen by filling the outline of its pen's way. Each join depends
-on the two segments that it joins, each cap on the end of one segment. Hence the outlines of two
-pieces differ by closed loops within the padded boxes of the segments that they do not have in
-common. Qt's rasteriser adds up whole numbers, the heights and areas of edges within pixels, along
-the row; those of a closed loop that ends before a pixel cancel exactly. A thin pen draws segment by
-segment, each by its ends and caps. Common segments lie in common pieces, in the order of t, and so
-do the pieces. ∎
-
-For the same reason a line is drawn in a region by those of its segments alone whose padded boxes
-meet the region, and their neighbours: what is left out is closed by caps that do not reach into it.
+Proof. A broad piece is drawn by filling its outline (`app.outline`), whose part along a segment
+depends on that segment and its neighbours. Hence the outlines of two pieces differ by closed loops
+within the padded boxes of the segments named. Qt's rasteriser adds up whole numbers, the heights
+and areas of edges within pixels, along the row; those of a closed loop that ends before a pixel
+cancel exactly. A thin pen draws segment by segment, each by its ends and caps. Common segments lie
+in common pieces, in the order of t, and so do the pieces. ∎
 """
 
 from __future__ import annotations
@@ -29,29 +25,32 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtGui import QPolygonF
 
+from app.outline import outline
+from app.pixel_box import Box, apart, around
 from app.polyline import SAFE_PX, polygon_of, thinned, within_square
 from core.runs import Runs
 
 WHOLE: Final = 512
-"""Number of vertices up to which a run is stroked in one piece, without any seam."""
+"""Number of vertices up to which a run is drawn in one piece, without any seam."""
 
 PIECE: Final = 64
-"""Segments of a piece of a longer one, about: a wide pen's cost grows with its outline."""
+"""Segments of a piece of a longer one, about: the cost of filling grows with what lies in a row."""
 
 MOST_IN_PIECE: Final = 256
 """Segments of a piece beyond which it is cut every `PIECE`, counted from its start."""
 
-_FEW: Final = 512
-"""Vertices from the first to the last that differs, up to which none between are looked at."""
-
 UNCUT: Final = np.inf
 """Stride of lines that are not cut."""
+
+_BESIDE: Final = 2
+"""Vertices on either side of one that differs up to which the outline depends on it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,54 +66,61 @@ class Line:
         Places along the line, shape (k,), rising within a piece and from piece to piece.
     starts
         First vertex of each piece, and k: shape (pieces + 1,).
+    halves
+        Half of the breadth at each vertex, shape (k,); None of a line as broad as its pen.
     """
 
     vertices: NDArray[np.float64]
     t: NDArray[np.float64]
     starts: NDArray[np.intp]
+    halves: NDArray[np.float64] | None = None
 
     def pieces(self) -> Iterator[NDArray[np.float64]]:
         """The vertices of each piece."""
-        for first, after in zip(self.starts[:-1], self.starts[1:], strict=True):
+        for first, after in pairwise(self.starts.tolist()):
             yield self.vertices[first:after]
 
-    @cached_property
-    def polygons(self) -> list[tuple[QPolygonF, bool]]:
-        """The pieces as Qt draws them, and whether each is a loop; its end is left out then."""
-        return [
-            (polygon_of(piece[:-1] if is_loop else piece), bool(is_loop))
-            for piece, is_loop in zip(self.pieces(), self._loops, strict=True)
-        ]
+    def outline(self, piece: int, half: float) -> NDArray[np.float64]:
+        """Outline of a piece (`app.outline`), ``half`` or `halves` on either side of it."""
+        part = slice(int(self.starts[piece]), int(self.starts[piece + 1]))
+        breadth = half if self.halves is None else self.halves[part]
+        return outline(self.vertices[part], breadth, bool(self.loops[piece]))
+
+    def polygon(self, piece: int) -> tuple[QPolygonF, bool]:
+        """A piece as Qt draws it by a pen, and whether it is a loop; its end is left out then."""
+        first, after = int(self.starts[piece]), int(self.starts[piece + 1])
+        is_loop = bool(self.loops[piece])
+        return polygon_of(self.vertices[first : after - is_loop]), is_loop
 
     @cached_property
-    def heads(self) -> NDArray[np.intp]:
-        """First vertices of the segments, shape (s,); the second ones come next."""
-        is_head = np.ones(len(self.vertices), dtype=bool)
-        is_head[self.starts[1:] - 1] = False
-        return np.flatnonzero(is_head)
+    def box(self) -> Box:
+        """Where its middle is."""
+        return around(self.vertices, 0.0)
+
+    def near(self, box: Box, reach: float) -> list[int]:
+        """Pieces that come within a reach of a box, perhaps."""
+        if len(self.starts) == 2:
+            return [0]
+        low, high = self._corners
+        left, top, right, bottom = box
+        meets = (low <= (right + reach, bottom + reach)) & (high >= (left - reach, top - reach))
+        found: list[int] = np.flatnonzero(meets[:, 0] & meets[:, 1]).tolist()
+        return found
 
     @cached_property
-    def boxes(self) -> NDArray[np.float64]:
-        """Left, top, right and bottom of each segment, without the pen: shape (4, s)."""
-        ends = self.vertices.T[:, self.heads], self.vertices.T[:, self.heads + 1]
-        return np.concatenate([np.minimum(*ends), np.maximum(*ends)])
-
-    def widened(self, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Chosen segments and their neighbours, those over the seam of a loop too, shape (s,)."""
-        wide = chosen.copy()
-        wide[1:] |= chosen[:-1]
-        wide[:-1] |= chosen[1:]
-        for piece in np.flatnonzero(self._loops).tolist():
-            first, last = (int(self.starts[k]) - k for k in (piece, piece + 1))
-            wide[first] |= chosen[last - 1]
-            wide[last - 1] |= chosen[first]
-        return wide
+    def _corners(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lower and upper corners of the pieces, shapes (pieces, 2)."""
+        firsts = self.starts[:-1]
+        return (
+            np.minimum.reduceat(self.vertices, firsts), np.maximum.reduceat(self.vertices, firsts)
+        )  # fmt: skip
 
     @cached_property
-    def _loops(self) -> NDArray[np.bool_]:
+    def loops(self) -> NDArray[np.bool_]:
         """Pieces that end where they start, shape (pieces,)."""
-        ends = self.vertices[self.starts[:-1]], self.vertices[self.starts[1:] - 1]
-        found: NDArray[np.bool_] = (ends[0] == ends[1]).all(axis=1)
+        found: NDArray[np.bool_] = (
+            self._places[self.starts[:-1]] == self._places[self.starts[1:] - 1]
+        )
         return found
 
     @cached_property
@@ -124,56 +130,89 @@ class Line:
 
     @cached_property
     def _names(self) -> NDArray[np.complex128]:
-        """Name of the piece of each vertex, and i where the pen has a cap, shape (k,)."""
+        """Name of the piece of each vertex, and i where the line has an end there, shape (k,)."""
         starts = self.starts
         names = np.repeat(self.t[starts[:-1]] + 0j, starts[1:] - starts[:-1])
-        names.imag[starts[:-1]] = names.imag[starts[1:] - 1] = ~self._loops
+        names.imag[starts[:-1]] = names.imag[starts[1:] - 1] = ~self.loops
         return names
 
-    def own(self, other: Line) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Segments of this line that the other one has not, and those that only the other has.
+    def unlike(self, other: Line, reach: float) -> list[Box]:
+        """Boxes with a margin outside of which both lines are the same picture, drawn alike."""
+        mine, others = self._own(other)
+        if mine is others:
+            return apart((self.vertices, other.vertices), mine, _BESIDE, reach)
+        return [*apart((self.vertices,), mine, _BESIDE, reach),
+                *apart((other.vertices,), others, _BESIDE, reach)]  # fmt: skip
 
-        A few that both have may be among them.
+    def _own(self, other: Line) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Vertices of this line that the other one has not, and those that only the other has.
 
-        Returns
-        -------
-        mine, others
-            Shapes (s,) of this line and of the other one.
+        A few that both have may be among them. Of a loop that differs near its seam, both sides of
+        the seam are. If a segment is not common, one of its ends is among these vertices, or what
+        the other line has between them.
         """
+        if _same(self.t, other.t) and _same(self.starts, other.starts):
+            changed = self._changed(other)
+            return changed, changed
+        mine, others = self._alone(other)
+        return self._over_seams(mine), other._over_seams(others)
+
+    def _changed(self, other: Line) -> NDArray[np.intp]:
+        """Vertices that differ in lines of the same t and pieces."""
+        differ: NDArray[np.bool_] = self._places != other._places
+        if self.halves is not None and other.halves is not None:
+            differ |= self.halves != other.halves
+        changed = differ.nonzero()[0]
+        if self._keeps_seam(changed):
+            return changed
+        opened = self.loops != other.loops
+        if opened.any():
+            differ[self.starts[:-1][opened]] = differ[self.starts[1:][opened] - 1] = True
+            changed = differ.nonzero()[0]
+        return self._over_seams(changed)
+
+    def _keeps_seam(self, changed: NDArray[np.intp]) -> bool:
+        """Whether no vertex near the ends of a line in one piece is among some."""
+        if not len(changed):
+            return True
+        last = len(self.t) - 1
+        return len(self.starts) == 2 and changed[0] > _BESIDE and changed[-1] < last - _BESIDE
+
+    def _over_seams(self, changed: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Vertices, and both ends of each loop that has one near its seam."""
+        if self._keeps_seam(changed) or not self.loops.any():
+            return changed
+        firsts, lasts = self.starts[:-1][self.loops], self.starts[1:][self.loops] - 1
+        ends = np.concatenate([firsts, lasts])
+        # The first one from two before an end on is at most two behind it.
+        near = np.searchsorted(changed, ends - _BESIDE)
+        is_near = changed[np.minimum(near, len(changed) - 1)] <= ends + _BESIDE
+        is_near &= near < len(changed)
+        meets = is_near[: len(firsts)] | is_near[len(firsts) :]
+        return np.union1d(changed, np.concatenate([firsts[meets], lasts[meets]]))
+
+    def _alone(self, other: Line) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """The same for any two lines, without a look over the seams."""
         sizes = len(self.t), len(other.t)
         count = min(sizes)
         before = _leading(self._alike(slice(count), other, slice(count)))
         left = count - before
         ends = slice(sizes[0] - left, None), slice(sizes[1] - left, None)
         behind = _leading(self._alike(ends[0], other, ends[1])[::-1])
-        # Where both ends differ the seam of a loop is among what moves, and its middle stays.
-        if count - before - behind <= _FEW and (before or behind or not count):
-            mine, others = (
-                (line.heads >= before - 1) & (line.heads < size - behind)
-                for line, size in zip((self, other), sizes, strict=True)
-            )
-            return mine, others
-        # Which vertex of the other line each one is, or -1.
-        partner = np.arange(sizes[0]), np.arange(sizes[1])
-        partner[0][sizes[0] - behind :] += sizes[1] - sizes[0]
-        partner[1][sizes[1] - behind :] += sizes[0] - sizes[1]
-        for partners, size in zip(partner, sizes, strict=True):
-            partners[before : size - behind] = -1
+        mine, others = (np.ones(size, dtype=bool) for size in sizes)
+        for own, size in ((mine, sizes[0]), (others, sizes[1])):
+            own[:before] = own[size - behind :] = False
         # Several parts may differ, such as those on both sides of a seam. A cut vertex is in both
         # pieces; the later one of the two begins a piece.
         inner = np.arange(before, sizes[0] - behind)
         places = np.searchsorted(other.t, self.t[inner], "left")
         begins = self.starts[np.searchsorted(self.starts, inner)] == inner
         places[begins] = np.searchsorted(other.t, self.t[inner[begins]], "right") - 1
-        places = np.minimum(places, sizes[1] - 1)
-        alike = self._alike(inner, other, places)
-        partner[0][inner[alike]] = places[alike]
-        partner[1][places[alike]] = inner[alike]
-        mine, others = (
-            (partners[line.heads] < 0) | (partners[line.heads + 1] != partners[line.heads] + 1)
-            for partners, line in zip(partner, (self, other), strict=True)
-        )
-        return mine, others
+        places = np.clip(places, 0, max(sizes[1] - 1, 0))
+        if sizes[1] and len(inner):
+            alike = self._alike(inner, other, places)
+            mine[inner[alike]] = others[places[alike]] = False
+        return mine.nonzero()[0], others.nonzero()[0]
 
     def _alike(
         self, mine: slice | NDArray[np.intp], other: Line, others: slice | NDArray[np.intp]
@@ -182,6 +221,8 @@ class Line:
         alike: NDArray[np.bool_] = self.t[mine] == other.t[others]
         alike &= self._places[mine] == other._places[others]
         alike &= self._names[mine] == other._names[others]
+        if self.halves is not None and other.halves is not None:
+            alike &= self.halves[mine] == other.halves[others]
         return alike
 
 
@@ -217,17 +258,36 @@ def line_of(runs: Runs, period: int, stride: float) -> Line:
     if period and len(t) and t[0] == 0 and t[-1] == period:
         if len(starts) == 2:
             # The ends agree up to rounding; the pen shall meet itself without a cap.
-            vertices = vertices.copy()
-            vertices[-1] = vertices[0]
+            if (vertices[-1] != vertices[0]).any():
+                vertices = vertices.copy()
+                vertices[-1] = vertices[0]
         else:
             second = int(starts[1])
             vertices = np.concatenate([vertices[second:-1], vertices[:second]])
             t = np.concatenate([t[second:-1], t[:second] + period])
             starts = np.append(starts[1:-1] - second, len(t))
     vertices, t, starts = thinned(vertices, t, starts)
-    if len(vertices) and np.abs(vertices).max() > SAFE_PX:
+    if len(vertices) and not _is_safe(vertices):
         vertices, t, starts = within_square(vertices, t, starts)
     return _cut(vertices, t, starts, stride)
+
+
+def ribbon_of(vertices: NDArray[np.float64], halves: NDArray[np.float64]) -> Line:
+    """Line of its own breadth through vertices, in one piece, of two vertices or more.
+
+    Parameters
+    ----------
+    vertices
+        In pixels, finite, shape (k, 2).
+    halves
+        Half of the breadth at each, shape (k,).
+    """
+    t = np.arange(len(vertices), dtype=np.float64)
+    starts = np.array([0, len(t)])
+    if not _is_safe(vertices):
+        vertices, seen, starts = within_square(vertices, t, starts)
+        t, halves = seen, np.interp(seen, t, halves)
+    return Line(vertices, t, starts, halves)
 
 
 def _cut(
@@ -247,6 +307,16 @@ def _cut(
     places = np.repeat(np.arange(len(t)), 1 + fresh)
     first = np.union1d(cuts, starts)
     return Line(vertices[places], t[places], first + np.searchsorted(cuts, first, "right"))
+
+
+def _is_safe(vertices: NDArray[np.float64]) -> bool:
+    """Whether Qt can hold all vertices, of which there must be one."""
+    return bool(vertices.max() <= SAFE_PX and vertices.min() >= -SAFE_PX)
+
+
+def _same(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
+    """Whether two arrays of one dimension are equal."""
+    return one is other or (len(one) == len(other) and bool((one == other).all()))
 
 
 def _leading(flags: NDArray[np.bool_]) -> int:

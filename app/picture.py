@@ -17,7 +17,7 @@ from PySide6.QtGui import QFont, QFontMetricsF
 
 from app.dirt import Key
 from app.drawn import MOST_HANDLES, Drawn
-from app.ink import Area, Band, Ink, Stroke, Words
+from app.ink import Band, Ink, Stroke, Words
 from app.line import Line
 from app.pixel_box import Box
 from app.scene import Overlay, Scene
@@ -138,8 +138,8 @@ class Picture:
             if ink is not None:
                 self.things[key] = ink
 
-        for place, outline in enumerate(scene.ribbons_px):
-            put((Layer.RIBBON, place), _ribbon, outline)
+        for place, ribbon in enumerate(scene.ribbons):
+            put((Layer.RIBBON, place), _ribbon, ribbon)
         for index, ghost in scene.ghosts.items():
             put((Layer.GHOST, index), _ghost, ghost)
         self._put_curves(put, setting, scene, selection)
@@ -213,26 +213,32 @@ def _curve_inks(
     return _CurveInks(drawn, is_active, polygon, outline, points)
 
 
-def _ribbon(setting: Setting, outline: NDArray[np.float64]) -> Ink:
-    return Area(outline, setting.palette.influence, RIBBON_OPACITY)
+def _ribbon(setting: Setting, line: Line) -> Ink | None:
+    return _stroke(setting, line, setting.palette.influence, 0.0, RIBBON_OPACITY)
 
 
 def _ghost(setting: Setting, line: Line) -> Ink | None:
-    return _stroke(line, setting.palette.ghost, SIZES.polygon_width, GHOST_OPACITY)
+    return _stroke(setting, line, setting.palette.ghost, SIZES.polygon_width, GHOST_OPACITY)
 
 
 def _polygon(setting: Setting, drawn: Drawn) -> Ink | None:
-    return _stroke(drawn.polygon_line, setting.palette.polygon, SIZES.polygon_width)
+    return _stroke(setting, drawn.polygon_line, setting.palette.polygon, SIZES.polygon_width)
 
 
 def _outline(setting: Setting, drawn: Drawn, calm: bool) -> Ink | None:
+    palette = setting.palette
     if calm:
-        return _stroke(drawn.outline_line, setting.palette.curve, SIZES.calm_width)
-    return _stroke(drawn.outline_line, setting.palette.curve_active, SIZES.curve_width)
+        return _stroke(setting, drawn.outline_line, palette.curve, SIZES.calm_width)
+    return _stroke(setting, drawn.outline_line, palette.curve_active, SIZES.curve_width)
 
 
-def _stroke(line: Line, colour: str, width: float, opacity: float = 1.0) -> Ink | None:
-    return Stroke(line, colour, width, opacity) if len(line.t) else None
+def _stroke(
+    setting: Setting, line: Line, colour: str, width: float, opacity: float = 1.0
+) -> Ink | None:
+    if not len(line.t):
+        return None
+    is_thin = line.halves is None and width * setting.ratio <= 1.0
+    return Stroke(line, colour, width, opacity, is_thin)
 
 
 def _points(setting: Setting, drawn: Drawn, calm: bool) -> Ink | None:

@@ -1,4 +1,4 @@
-"""Boxes in logical pixels: around things, with a margin, and which of them meet a region."""
+"""Boxes in logical pixels: around things, with a margin, and where they differ."""
 
 from __future__ import annotations
 
@@ -16,36 +16,56 @@ SMOOTHED_PX: Final = 1.5
 MOST_PARTS: Final = 8
 """Number of boxes that the difference of two things is told in."""
 
+_NEAR: Final = 16
+"""Places between two that differ up to which they go into one box."""
 
-def around(boxes: NDArray[np.float64], reach: float) -> Box:
-    """Box around boxes, shape (4, k), and a margin; without any, a box that nothing meets."""
-    if not boxes.shape[1]:
+
+def around(places: NDArray[np.float64], reach: float) -> Box:
+    """Box around places, shape (k, 2), and a margin; without any, a box that nothing meets."""
+    if not len(places):
         return np.inf, np.inf, -np.inf, -np.inf
-    left, top = (boxes[:2].min(axis=1) - reach).tolist()
-    right, bottom = (boxes[2:].max(axis=1) + reach).tolist()
-    return left, top, right, bottom
+    left, top = np.minimum.reduce(places).tolist()
+    right, bottom = np.maximum.reduce(places).tolist()
+    return left - reach, top - reach, right + reach, bottom + reach
 
 
-def meeting(
-    boxes: NDArray[np.float64], region: NDArray[np.float64], reach: float
-) -> NDArray[np.bool_]:
-    """Which of some boxes, shape (4, k), with a margin, meet a region of rectangles, (r, 4)."""
-    left, top, right, bottom = boxes
-    found = np.zeros(boxes.shape[1], dtype=bool)
-    for low_x, low_y, high_x, high_y in region:
-        meets = (left <= high_x + reach) & (right >= low_x - reach)
-        meets &= (top <= high_y + reach) & (bottom >= low_y - reach)
-        found |= meets
+def meeting(places: NDArray[np.float64], box: Box, reach: float) -> NDArray[np.bool_]:
+    """Which places, shape (k, 2), lie within a reach of a box."""
+    left, top, right, bottom = box
+    near = (places >= (left - reach, top - reach)) & (places <= (right + reach, bottom + reach))
+    found: NDArray[np.bool_] = near[:, 0] & near[:, 1]
     return found
 
 
-def gathered(boxes: NDArray[np.float64], reach: float) -> list[Box]:
-    """A few boxes that hold many, shape (4, k), with a margin; neighbours go together."""
-    count = boxes.shape[1]
-    if not count:
+def apart(
+    rows: tuple[NDArray[np.float64], ...], chosen: NDArray[np.intp], beside: int, reach: float
+) -> list[Box]:
+    """A few boxes with a margin that hold some places of a row, or of several rows.
+
+    Parameters
+    ----------
+    rows
+        Each of shape (k, 2).
+    chosen
+        Rising indices.
+    beside
+        Neighbours on either side that are held, too.
+    reach
+        The margin.
+    """
+    if not len(chosen):
         return []
-    parts = min(count, MOST_PARTS)
-    firsts = np.arange(parts) * count // parts
-    low = np.minimum.reduceat(boxes[:2], firsts, axis=1) - reach
-    high = np.maximum.reduceat(boxes[2:], firsts, axis=1) + reach
-    return [(a, b, c, d) for a, b, c, d in np.concatenate([low, high]).T.tolist()]
+    first, last = int(chosen[0]), int(chosen[-1])
+    edges = [(first, last)]
+    if last - first >= len(chosen) - 1 + _NEAR:
+        gaps = chosen[1:] - chosen[:-1]
+        wide = (gaps > _NEAR).nonzero()[0]
+        if len(wide) >= MOST_PARTS:
+            wide = np.sort(wide[np.argpartition(gaps[wide], 1 - MOST_PARTS)[1 - MOST_PARTS :]])
+        firsts, lasts = chosen[wide + 1].tolist(), chosen[wide].tolist()
+        edges = list(zip([first, *firsts], [*lasts, last], strict=True))
+    boxes = []
+    for low, high in edges:
+        held = [row[max(low - beside, 0) : high + beside + 1] for row in rows]
+        boxes.append(around(held[0] if len(held) == 1 else np.concatenate(held), reach))
+    return boxes

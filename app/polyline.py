@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 import numpy as np
@@ -22,6 +23,13 @@ POINT_BYTES: Final = 16
 
 DENSE: Final = 4000
 """Number of vertices above which those that fall on the same quarter pixel are merged."""
+
+
+SNAP: Final = 64
+"""Places that a vertex may have in a device pixel, along each axis: as many as Qt tells apart."""
+
+SNAPPED_PX: Final = math.sqrt(0.5) / SNAP
+"""How far it may be off for that, in device pixels."""
 
 
 def thinned(
@@ -94,27 +102,14 @@ def within_square(
     )
 
 
-def area_within_square(
-    outline: NDArray[np.float64], limit: float = SAFE_PX
-) -> NDArray[np.float64]:
-    """Outline of the part of an area within the square of half width ``limit``, shape (k, 2).
+def snapped(vertices: NDArray[np.float64], ratio: float) -> NDArray[np.float64]:
+    """Vertices on the grid of `SNAP` places a device pixel; ``ratio`` is the screen's.
 
-    It winds about each place within as the outline does that came in, and may run along the sides.
+    Far from a point that is dragged a curve moves by less than can be seen. On the grid it mostly
+    does not move at all, and need not be painted anew.
     """
-    for axis, sign in ((0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
-        room = limit - sign * outline[:, axis]
-        inside = room >= 0
-        if inside.all():
-            continue
-        # Sutherland and Hodgman: the vertices within, and the places where a side is crossed.
-        following, room_there = np.roll(outline, -1, axis=0), np.roll(room, -1)
-        crosses = inside != np.roll(inside, -1)
-        share = np.divide(room, room - room_there, out=np.zeros_like(room), where=crosses)
-        crossings = outline + share[:, None] * (following - outline)
-        crossings[:, axis] = sign * limit
-        both = np.stack([outline, crossings], axis=1).reshape(-1, 2)
-        outline = both[np.stack([inside, crosses], axis=1).ravel()]
-    return outline
+    steps = SNAP * ratio
+    return np.rint(vertices * steps) / steps
 
 
 def polygon_of(vertices: NDArray[np.float64]) -> QPolygonF:

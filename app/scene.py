@@ -26,7 +26,7 @@ from app.handles import (
 from app.line import Line, line_of
 from app.point_set import PointSet
 from app.ribbons import Influence, ribbons
-from app.splice import spliced
+from app.splice import Splice
 from core.document import Curve, Document
 from core.family import Parameters
 from core.runs import Runs
@@ -83,8 +83,8 @@ class Scene:
         The curves of the document.
     ghosts
         Parts of the curves before the open gesture that differ from the present ones, by index.
-    ribbons_px
-        Outlines of the ribbons of influence.
+    ribbons
+        Ribbons of influence.
     preview
         The curve being drawn.
     has_limit
@@ -94,7 +94,7 @@ class Scene:
     def __init__(self) -> None:
         self.curves: tuple[Drawn, ...] = ()
         self.ghosts: dict[int, Line] = {}
-        self.ribbons_px: tuple[NDArray[np.float64], ...] = ()
+        self.ribbons: tuple[Line, ...] = ()
         self.preview: Drawn | None = None
         self.has_limit = True
         self._camera = Camera()
@@ -138,7 +138,7 @@ class Scene:
         )
         self.has_limit = all(drawn.figure.limit is not None for drawn in self.curves)
         self.ghosts = self._ghosts(document, origin)
-        self.ribbons_px = tuple(
+        self.ribbons = tuple(
             ribbon
             for influence in overlay.influences
             if influence.curve < len(self.curves)
@@ -256,7 +256,8 @@ class Scene:
         if figure is None:
             figure = Figure(curve, parameters)
         elif before is not None and not self._moved:
-            drawn = spliced(before.base or before, self._ratio)
+            splice = Splice.of(before)
+            drawn = None if splice is None else splice.drawn()
             if drawn is not None:
                 return drawn
         return traced(figure, self._camera, self._ratio)

@@ -6,15 +6,16 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QRegion, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from app.camera import Camera
-from app.dirt import dirt, merged, region_of
+from app.dirt import dirt, region_of
 from app.grid import Background
 from app.guard import guarded
 from app.picture import HINT_ROOM_PX, Picture, Setting
+from app.rulers import Rulers
 from app.scene import NOTHING, Overlay, Scene
 from app.session import Selection, Session
 from app.style import SIZES, color, palette_of
@@ -66,17 +67,16 @@ class Sheet(QWidget):
         self._scene = Scene()
         self._background = Background()
         self._paper = QPixmap()
+        self._rulers = Rulers(self)
         self._picture = Picture()
+        self._setting: tuple[tuple[object, ...], Setting] | None = None
         self._ground: tuple[object, ...] = ()
-        self._looks: tuple[object, ...] = ()
         self._is_stale = True
         self._shown_overlay: Overlay = NOTHING
         self._notice = ""
         self._show_polygon = self._show_grid = True
         self._first_document = session.document
         self._is_taught = session.undo_name is not None
-        self._mouse: QPointF | None = None
-        self._marked: QPointF | None = None
         self._is_due = False
         self._due.connect(self._draw, Qt.ConnectionType.QueuedConnection)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -173,48 +173,39 @@ class Sheet(QWidget):
 
     def mark_mouse(self, position: QPointF | None) -> None:
         """Mark a place on the rulers, or none."""
-        self._mouse = position
-        self._draw_soon()
+        self._rulers.mark(position)
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:
-        palette = palette_of(self)
-        if self._is_due or self._looks != (palette, self.devicePixelRatioF()):
+        if self._is_due or self._setting is None or self._present_setting() != self._setting[1]:
             # What differs outside of the event's region is painted by the next event.
             self._renew()
-        content = self._content()
+        region = event.region()
         with QPainter(self) as painter:
             # Qt has cut the painter to the region.
             painter.drawPixmap(0, 0, self._paper)
+            content = self._content()
             painter.setClipRect(content)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            self._paint_things(painter, event.region() & content.toAlignedRect())
-            painter.setClipping(False)
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-            if self._marked is not None:
-                for mark in _marks(self._marked):
-                    painter.fillRect(mark, color(palette.accent))
+            self._paint_things(painter, region & content.toAlignedRect())
             if self.hasFocus():
-                painter.setPen(QPen(color(palette.accent), 1.0))
+                painter.setClipping(False)
+                painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+                painter.setPen(QPen(color(self._present_setting().palette.accent), 1.0))
                 painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
 
     def _paint_things(self, painter: QPainter, region: QRegion) -> None:
         """Paint what is seen of the picture in a region."""
-        boxes = merged(
-            [
-                (part.left(), part.top(), part.right() + 1.0, part.bottom() + 1.0)
-                for part in region  # type: ignore[attr-defined]  # the stubs do not know
-            ]
-        )
-        if not boxes:
+        if region.isEmpty():
             return
-        rectangles = np.array(boxes)
-        low_x, low_y = rectangles[:, :2].min(axis=0).tolist()
-        high_x, high_y = rectangles[:, 2:].max(axis=0).tolist()
+        around = region.boundingRect()
+        left, top = float(around.left()), float(around.top())
+        right, bottom = left + around.width(), top + around.height()
+        seen = left, top, right, bottom
         for ink in self._picture.things.values():
-            left, top, right, bottom = ink.box
-            if left <= high_x and right >= low_x and top <= high_y and bottom >= low_y:
-                ink.paint(painter, rectangles)
+            box = ink.box
+            if box[0] <= right and box[2] >= left and box[1] <= bottom and box[3] >= top:
+                ink.paint(painter, seen)
 
     @guarded
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -226,6 +217,7 @@ class Sheet(QWidget):
     @guarded
     def changeEvent(self, event: QEvent) -> None:
         super().changeEvent(event)
+        self._setting = None  # the font may be another one
         self.refresh()
 
     def words(self) -> str:
@@ -263,11 +255,15 @@ class Sheet(QWidget):
             )  # fmt: skip
 
     def _present_setting(self) -> Setting:
-        """How the picture is to be drawn."""
-        return Setting(
-            palette_of(self), self.devicePixelRatioF(), self._content(), self.font(),
-            self._show_polygon,
-        )  # fmt: skip
+        """How the picture is to be drawn; the same object as long as it is the same way."""
+        # The colours, and a screen's ratio, change without a word.
+        ratio = self.devicePixelRatioF()
+        key = self.palette().cacheKey(), ratio, self.width(), self.height(), self._show_polygon
+        if self._setting is None or self._setting[0] != key:
+            content, font = self._content(), self.font()
+            made = Setting(palette_of(self), ratio, content, font, self._show_polygon)
+            self._setting = key, made
+        return self._setting[1]
 
     def _draw_soon(self) -> None:
         """Draw once the input that waits has been dealt with, and before anything is painted.
@@ -287,17 +283,17 @@ class Sheet(QWidget):
 
     def _renew(self) -> None:
         """Make the picture of what is shown now, and have painted where it differs."""
-        things, marked = self._picture.things, self._marked
-        setting, self._marked = self._present_setting(), self._mouse
+        things, setting = self._picture.things, self._present_setting()
         ground = setting, self._camera, self._show_grid, self.hasFocus()
         is_other, is_first = ground != self._ground, not self._ground
-        self._ground, self._looks = ground, (setting.palette, setting.ratio)
-        # A screen's ratio and the colours change without a word.
-        self._is_stale |= is_other
+        self._ground = ground
+        if is_other:
+            self._is_stale = True
+            self._paper = self._background.pixmap(
+                self._camera, setting.palette, setting.ratio, setting.font, self._show_grid
+            )
+            self._rulers.show_paper(self._paper, setting.palette.accent)
         self._settle()
-        self._paper = self._background.pixmap(
-            self._camera, setting.palette, setting.ratio, setting.font, self._show_grid
-        )
         notice = self._notice if self.session.document.curves else ""
         self._picture.update(
             setting, self._scene, self.session.selection, self._shown_overlay, self.words(), notice
@@ -308,10 +304,6 @@ class Sheet(QWidget):
             return
         boxes = dirt(things, self._picture.things)
         region = region_of(boxes, setting.view.toAlignedRect())
-        if marked != self._mouse:
-            for place in (marked, self._mouse):
-                for mark in () if place is None else _marks(place):
-                    region += mark
         if not region.isEmpty():
             self.update(region)
 
@@ -328,13 +320,6 @@ class Sheet(QWidget):
 
     def _on_selection_changed(self, old: Selection, new: Selection) -> None:
         self.refresh()
-
-
-def _marks(place: QPointF) -> list[QRect]:
-    """Where a place is marked on both rulers."""
-    x, y, breadth = int(place.x()), int(place.y()), SIZES.ruler
-    along = [QRect(x, 0, 1, breadth)] if x >= breadth else []
-    return along + ([QRect(0, y, breadth, 1)] if y >= breadth else [])
 
 
 def place_px(point: QPointF) -> NDArray[np.float64]:

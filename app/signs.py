@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -12,7 +12,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QPainter, QPen, QPixmap
 
 from app.ink import Ink, both
-from app.pixel_box import SMOOTHED_PX, Box, around, gathered, meeting
+from app.pixel_box import SMOOTHED_PX, Box, apart, around, meeting
 from app.polyline import point_of, polygon_of
 from app.style import SIZES, color
 
@@ -48,27 +48,22 @@ class _Points:
 
     @property
     def box(self) -> Box:
-        return around(self._boxes, self.reach)
-
-    @cached_property
-    def _boxes(self) -> NDArray[np.float64]:
-        return np.concatenate([self.places.T, self.places.T])
+        return around(self.places, self.reach)
 
     def unlike(self, other: Ink) -> list[Box]:
         if not isinstance(other, _Points) or self.look != other.look:
             return [self.box, other.box]
-        if np.array_equal(self.names, other.names):
-            own = others = (self.places != other.places).any(axis=1)
-        else:
-            # Both name the points in rising order, in which those of both are painted.
-            own, others = np.ones(len(self.names), bool), np.ones(len(other.names), bool)
-            _, one, two = np.intersect1d(
-                self.names, other.names, assume_unique=True, return_indices=True
-            )
-            moved = (self.places[one] != other.places[two]).any(axis=1)
-            own[one] = others[two] = moved
-        boxes = [self._boxes[:, own], other._boxes[:, others]]
-        return gathered(np.concatenate(boxes, axis=1), self.reach)
+        if self.names is other.names or np.array_equal(self.names, other.names):
+            own = (self.places != other.places).any(axis=1).nonzero()[0]
+            return apart((self.places, other.places), own, 0, self.reach)
+        # Both name the points in rising order, in which those of both are painted.
+        mine, lone = np.ones(len(self.names), bool), np.ones(len(other.names), bool)
+        _, one, two = np.intersect1d(
+            self.names, other.names, assume_unique=True, return_indices=True
+        )
+        mine[one] = lone[two] = (self.places[one] != other.places[two]).any(axis=1)
+        return [*apart((self.places,), mine.nonzero()[0], 0, self.reach),
+                *apart((other.places,), lone.nonzero()[0], 0, self.reach)]  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,8 +84,8 @@ class Handles(_Points):
         # Half of the picture, the way to whole pixels, and what smoothing adds.
         return self.radius + SIZES.rim_width + 1.0 + SMOOTHED_PX
 
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        places = self.places[meeting(self._boxes, region, self.reach)]
+    def paint(self, painter: QPainter, seen: Box) -> None:
+        places = self.places[meeting(self.places, seen, self.reach)]
         pixmap = _disc(self.rim, 1.0, SIZES.rim_width, self.fill, self.radius, self.ratio)
         _stamp(painter, pixmap, places)
 
@@ -109,8 +104,8 @@ class Dots(_Points):
     def reach(self) -> float:
         return SIZES.dot_radius + SMOOTHED_PX
 
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
-        places = self.places[meeting(self._boxes, region, self.reach)]
+    def paint(self, painter: QPainter, seen: Box) -> None:
+        places = self.places[meeting(self.places, seen, self.reach)]
         painter.setPen(QPen(color(self.colour), 2 * SIZES.dot_radius))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         painter.drawPoints(polygon_of(places))
@@ -133,7 +128,7 @@ class Ring(NamedTuple):
     def unlike(self, other: Ink) -> list[Box]:
         return both(self, other)
 
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
+    def paint(self, painter: QPainter, seen: Box) -> None:
         radius = SIZES.point_radius + _RING_GAP
         pixmap = _disc(self.colour, 0.35, _RING_WIDTH, None, radius, self.ratio)
         _stamp(painter, pixmap, np.array([[self.x, self.y]]))
@@ -154,7 +149,7 @@ class Grip(NamedTuple):
     def unlike(self, other: Ink) -> list[Box]:
         return both(self, other)
 
-    def paint(self, painter: QPainter, region: NDArray[np.float64]) -> None:
+    def paint(self, painter: QPainter, seen: Box) -> None:
         radius = SIZES.selected_radius
         painter.setPen(QPen(color(self.rim), SIZES.rim_width))
         painter.setBrush(color(self.colour))

@@ -9,50 +9,85 @@ from numpy.typing import NDArray
 
 from core.chords import chord_constant, second_difference_norm
 from core.limit import LimitCurve
+from core.mask import Mask
 from core.pyramid import running_max
 
 FINEST: Final = 6
 """Dyadic level beyond which a span has to be cut to what is seen of it."""
 
 
-def span_vertices(
-    limit: LimitCurve, spans: range, tolerance: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
-    """Places t and points of consecutive spans, each as fine as it needs, seen or not.
+class SpanVertices:
+    """Vertices of consecutive spans of a curve that moves, each span as fine as it needs.
 
     Parameters
     ----------
-    limit
-        A curve whose chords have a proven bound (`core.chords.chord_constant`).
     spans
         The spans, at least one.
-    tolerance
-        Largest admitted distance between curve and chords, in the unit of the points.
 
-    Returns
-    -------
-    t, points
-        Shapes (k,) and (k, 2), both ends included; None if a span needs a level beyond `FINEST`.
+    Notes
+    -----
+    Mostly a span needs now what it needed before; so long the places t are the same array.
     """
-    mask = limit.mask
-    reads = mask.end - mask.start + 1
-    windows = limit.endless_points[spans.start : spans.stop + reads - 1]
-    steps = windows[1:] - windows[:-1]
-    bends = np.hypot(*(steps[1:] - steps[:-1]).T)
-    bounds = chord_constant(mask) * running_max(bends, reads - 2)
-    shrinking = [second_difference_norm(mask, level) for level in range(1, FINEST + 1)]
-    if bounds.max() * shrinking[-1] > tolerance:
-        return None
-    levels = (bounds[:, None] * [1.0, *shrinking] > tolerance).sum(axis=1)
-    sizes = 1 << levels
-    offsets = np.concatenate([[0], np.cumsum(sizes)])
-    t, points = np.empty(offsets[-1] + 1), np.empty((offsets[-1] + 1, 2))
-    for level in range(int(levels.max()) + 1):
-        chosen = np.flatnonzero(levels == level)
-        if not len(chosen):
-            continue
-        place = np.arange((1 << level) + 1)
-        into = offsets[chosen][:, None] + place
-        t[into] = spans.start + chosen[:, None] + place / (1 << level)
-        points[into] = limit.span_points(spans.start + chosen, level)
-    return t, points
+
+    def __init__(self, spans: range) -> None:
+        self.spans = spans
+        self._limits: tuple[Mask, float, NDArray[np.float64]] | None = None
+        self._levels: NDArray[np.intp] | None = None
+        self._t = np.zeros(0)
+        self._chosen = np.zeros(0, dtype=np.intp)
+
+    def of(
+        self, limit: LimitCurve, tolerance: float
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+        """Places t and points of the spans, seen or not.
+
+        Parameters
+        ----------
+        limit
+            A curve whose chords have a proven bound (`core.chords.chord_constant`).
+        tolerance
+            Largest admitted distance between curve and chords, in the unit of the points.
+
+        Returns
+        -------
+        t, points
+            Shapes (k,) and (k, 2), both ends included; None if a span needs a level beyond
+            `FINEST`.
+        """
+        mask, spans = limit.mask, self.spans
+        reads = mask.end - mask.start + 1
+        windows = limit.endless_points[spans.start : spans.stop + reads - 1]
+        steps = windows[1:] - windows[:-1]
+        bends = np.hypot(*(steps[1:] - steps[:-1]).T)
+        bounds = running_max(bends, reads - 2)
+        # The level of a span is the number of those whose chords would be too far off.
+        levels = self._largest(mask, tolerance).searchsorted(bounds)
+        finest = int(levels.max())
+        if finest > FINEST:
+            return None
+        if self._levels is None or not (levels == self._levels).all():
+            self._lay_out(levels, finest)
+        points = limit.span_points(slice(spans.start, spans.stop), finest)
+        return self._t, points.transpose(2, 0, 1).reshape(2, -1).take(self._chosen, axis=1).T
+
+    def _largest(self, mask: Mask, tolerance: float) -> NDArray[np.float64]:
+        """Largest second differences that the levels from 0 to `FINEST` admit, rising."""
+        if self._limits is None or self._limits[:2] != (mask, tolerance):
+            norms = [second_difference_norm(mask, level) for level in range(1, FINEST + 1)]
+            bounds = chord_constant(mask) * np.array([1.0, *norms])
+            # A straight line admits any of them, at a constant of 0 too.
+            with np.errstate(divide="ignore"):
+                self._limits = mask, tolerance, np.maximum.accumulate(tolerance / bounds)
+        return self._limits[2]
+
+    def _lay_out(self, levels: NDArray[np.intp], finest: int) -> None:
+        """Choose places t, and which of the points at the finest level they are."""
+        sizes = 1 << levels
+        span = np.repeat(np.arange(len(levels)), sizes)
+        ends = np.cumsum(sizes)
+        place = np.arange(ends[-1]) - np.repeat(ends - sizes, sizes)
+        each = (1 << finest) + 1
+        self._levels = levels
+        self._chosen = np.append(span * each + (place << (finest - levels)[span]),
+                                 len(levels) * each - 1)  # fmt: skip
+        self._t = self.spans.start + np.append(span + place / sizes[span], len(levels))

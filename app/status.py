@@ -9,7 +9,6 @@ from PySide6.QtGui import QColor, QPalette, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QToolButton, QWidget
 
 from app.guard import guarded
-from app.paced import Paced
 from app.style import palette_of
 
 if TYPE_CHECKING:
@@ -24,10 +23,6 @@ MM_PER_INCH: Final = 25.4
 
 UNKNOWN: Final = "\N{HORIZONTAL ELLIPSIS}"
 """What stands for the class of the scheme before the first finding."""
-
-FOLLOW_MS: Final = 40
-"""Least time between two texts that follow the mouse: to write and paint them takes as long as a
-tenth of a frame, and nobody reads faster."""
 
 FIGURE_MARGIN_PX: Final = 12
 """Air on both sides of a figure's widest text."""
@@ -61,8 +56,6 @@ class StatusBar(QStatusBar):
         self._telling.setSingleShot(True)
         self._telling.setInterval(MESSAGE_MS)
         self._telling.timeout.connect(lambda: self.hint.setText(self._hint))
-        self._hints = Paced(self._write_hint, FOLLOW_MS, self)
-        self._places = Paced(self._write_place, FOLLOW_MS, self)
 
     def _figure(self, name: str, widest: str) -> Figure:
         figure = Figure(widest)
@@ -75,9 +68,6 @@ class StatusBar(QStatusBar):
     def show_hint(self, hint: str) -> None:
         """Show what the tool would do, as soon as no sentence is being told."""
         self._hint = hint
-        self._hints.offer(hint)
-
-    def _write_hint(self, hint: str) -> None:
         if not self._telling.isActive():
             self.hint.setText(hint)
 
@@ -108,12 +98,6 @@ class StatusBar(QStatusBar):
 
     def show_cursor(self, position: tuple[float, float] | None) -> None:
         """Show where the cursor is, in mm, or nothing while it is elsewhere."""
-        if position is None:
-            self._places.settle(None)
-        else:
-            self._places.offer(position)
-
-    def _write_place(self, position: tuple[float, float] | None) -> None:
         if position is None:
             self.cursor_label.show_words("")
             return

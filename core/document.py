@@ -45,13 +45,21 @@ class _Base:
 class _Moves(NamedTuple):
     """What a curve has different from the points of its base.
 
-    All of them are ``placed``; then those at rising ``indices`` have other ``positions``.
+    All of them are ``placed``; then those at rising ``indices`` have other ``positions``. Its
+    ``name`` is an object of its own; a curve that came from another one by `Curve.moved` knows that
+    one's name, its ``origin``, and rising indices of the points that were moved then.
     """
 
     base: _Base
     placed: Affine
     indices: NDArray[np.intp]
     positions: NDArray[np.float64]
+    name: object
+    origin: object
+    moved: NDArray[np.intp]
+
+
+_NONE: Final = np.zeros(0, dtype=np.intp)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +103,10 @@ class Curve:
         _check(points, np.arange(len(points)), self.name)
         points.flags.writeable = False
         object.__setattr__(self, "points", points)
-        none = np.zeros(0, dtype=np.intp)
-        object.__setattr__(self, "_moves", _Moves(_Base(points), IDENTITY, none, np.zeros((0, 2))))
+        moves = _Moves(
+            _Base(points), IDENTITY, _NONE, np.zeros((0, 2)), object(), object(), _NONE
+        )
+        object.__setattr__(self, "_moves", moves)
 
     def __getattr__(self, name: str) -> NDArray[np.float64]:
         # Reached only where an attribute is missing: the points of a moved curve, once.
@@ -139,11 +149,16 @@ class Curve:
 
     def moved(self, indices: ArrayLike, positions: ArrayLike) -> Curve:
         """Copy with the points at ``indices`` (k,) put at ``positions`` (k, 2) or (2,)."""
-        chosen = np.asarray(indices, dtype=np.intp).reshape(-1)
+        chosen = np.asarray(indices, dtype=np.intp)
+        if chosen.ndim != 1:
+            chosen = chosen.reshape(-1)
         count = self.count
-        if len(chosen) and not -count <= chosen.min() <= chosen.max() < count:
-            raise IndexError(f"{self.name!r} has {count} points")
-        chosen = chosen % max(count, 1)
+        if len(chosen):
+            least, largest = int(chosen.min()), int(chosen.max())
+            if not -count <= least <= largest < count:
+                raise IndexError(f"{self.name!r} has {count} points")
+            if least < 0:
+                chosen = chosen % count
         places = np.empty((len(chosen), 2))
         places[:] = positions
         _check(places, chosen, self.name)
@@ -152,12 +167,21 @@ class Curve:
             points = self.points.copy()
             points[chosen] = places
             return replace(self, points=points)
+        if len(chosen) > 1 and not (chosen[1:] > chosen[:-1]).all():
+            chosen, last = np.unique(chosen[::-1], return_index=True)
+            places = places[::-1][last]
+        # An array that cannot change is kept: in a drag it is known again by that.
+        if chosen.flags.writeable:
+            chosen = chosen.copy()
+            chosen.flags.writeable = False
         before, changed = self._moves, chosen
-        if len(before.indices) or len(chosen) > 1:
+        if len(before.indices):
             together = np.concatenate([before.indices, chosen])[::-1]
             changed, last = np.unique(together, return_index=True)
             places = np.concatenate([before.positions, places])[::-1][last]
-        curve = self._with(_Moves(before.base, before.placed, changed, places))
+        curve = self._with(
+            _Moves(before.base, before.placed, changed, places, object(), before.name, chosen)
+        )
         return replace(curve) if len(changed) > _MOVED_SHARE * count else curve
 
     def carried(self, placed: Affine) -> Curve:
@@ -178,7 +202,9 @@ class Curve:
                 f"{self.name!r} would leave the sheet: coordinates are at most"
                 f" {MAX_COORDINATE_MM:g} mm."
             )
-        return self._with(before._replace(placed=whole, positions=positions))
+        return self._with(
+            _Moves(before.base, whole, before.indices, positions, object(), object(), _NONE)
+        )
 
     def _with(self, moves: _Moves) -> Curve:
         curve = object.__new__(Curve)
@@ -191,9 +217,17 @@ class Curve:
         That is, elsewhere than where `placed` puts both. None if the curves have no common origin
         that tells it without comparing all points.
         """
-        if self._moves.base is not other._moves.base:
+        mine, others = self._moves, other._moves
+        if mine.base is not others.base:
             return None
-        return united(self._moves.indices, other._moves.indices)
+        # Curves that came from one, or one from the other, differ in what was moved since.
+        if mine.origin is others.origin:
+            return united(mine.moved, others.moved)
+        if mine.origin is others.name:
+            return mine.moved
+        if others.origin is mine.name:
+            return others.moved
+        return united(mine.indices, others.indices)
 
     def places(self, indices: ArrayLike) -> NDArray[np.float64]:
         """Positions of the points at ``indices`` (k,), shape (k, 2)."""

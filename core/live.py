@@ -43,6 +43,7 @@ class LiveCurve(LimitCurve):
     _IS_EXACT = False
 
     def _lay_out(self, mask: Mask) -> None:
+        self._asked: tuple[NDArray[np.intp], tuple[range, ...]] | None = None
         self._points = self.control_points
         self._store = columns(self._points, mask, self.closed, _SIDES)
         self._points.flags.writeable = True
@@ -78,18 +79,35 @@ class LiveCurve(LimitCurve):
             (the curve changes for ``|t - i| < 17/2``), and those that read a moved phantom point.
         """
         moved = np.asarray(indices, dtype=np.intp)
-        points = self._points
-        points[moved] = positions
-        if moved.size:
-            if len(points) >= far(_SIDES):
-                self._store[:, SIDE + moved] = points[moved].T
-            if len(points) < far(_SIDES) or any(self._at_ends(moved)):
-                self._write_ends(self.mask)
+        self.put(moved, positions)
         return self.reading(moved)
 
+    def put(self, indices: NDArray[np.intp], positions: ArrayLike) -> None:
+        """The same, without a look at what has changed; ``indices`` are an array."""
+        points = self._points
+        points[indices] = positions
+        if indices.size:
+            is_short = len(points) < far(_SIDES)
+            if not is_short:
+                self._store[:, SIDE + indices] = points[indices].T
+            if is_short or any(self._at_ends(indices)):
+                self._write_ends(self.mask)
+
     def reading(self, indices: ArrayLike) -> tuple[range, ...]:
-        """Spans that read some control points, as `move` tells them."""
-        moved, count = np.asarray(indices, dtype=np.intp), len(self._points)
+        """Spans that read some control points, as `move` tells them.
+
+        In a drag the same array is asked about again and again. If it cannot be written, the answer
+        is the same object.
+        """
+        moved = np.asarray(indices, dtype=np.intp)
+        if moved.flags.writeable:
+            return self._spans_of(moved)
+        if self._asked is None or self._asked[0] is not moved:
+            self._asked = moved, self._spans_of(moved)
+        return self._asked[1]
+
+    def _spans_of(self, moved: NDArray[np.intp]) -> tuple[range, ...]:
+        count = len(self._points)
         if moved.size == 0:
             return ()
         if count < far(_SIDES):
@@ -120,6 +138,7 @@ class LiveCurve(LimitCurve):
 
     def _show(self, mask: Mask) -> None:
         """Let the curve read as much of the store as a scheme needs."""
+        self._asked = None
         left, right = reach(mask)
         store = self.padded
         self._read(store[:, SIDE - left : store.shape[1] - SIDE + right], mask)

@@ -9,6 +9,7 @@ from app.camera import Camera
 from app.compact import SHORT, Compact
 from app.drawn import traced
 from app.figure import Figure
+from app.spans import SpanVertices
 from core.affine import IDENTITY, Affine
 from core.document import Curve
 from core.family import PRESETS, Parameters
@@ -26,7 +27,7 @@ def scribble(count, seed, closed=True):
 def test_the_box_holds_curve_and_polygon(member, count, closed, seed):
     curve = scribble(count, seed, closed)
     limit = LiveCurve(curve.points, member.mask, curve.is_loop)
-    low, high = Compact(curve, limit, IDENTITY).box
+    low, high = Compact(curve, limit, IDENTITY, SpanVertices(range(limit.spans))).box
     points = np.concatenate([limit.points(6), curve.points])
     assert (points >= low - 1e-9).all()
     assert (points <= high + 1e-9).all()
@@ -64,7 +65,7 @@ def test_it_is_kept_while_the_view_moves_and_dropped_with_a_change():
 
 def test_a_curve_out_of_view_is_not_evaluated(monkeypatch):
     figure = Figure(scribble(20, 3), PRESETS["Calm"])
-    monkeypatch.setattr("app.compact.span_vertices", None)
+    monkeypatch.setattr("app.spans.SpanVertices.of", None)
     drawn = traced(figure, Camera(x_mm=5000.0), 1.0)
     assert len(drawn.vertices_px) == len(drawn.polygon.vertices) == 0
     assert drawn.shown.tolist() == []

@@ -126,12 +126,27 @@ def test_a_move_in_a_long_curve_costs_what_moves():
     finally:
         tracemalloc.stop()
     assert peak < 20_000
-    assert again.differences(moved).tolist() == [7, 199_999]
+    assert again.differences(moved).tolist() == moved.differences(again).tolist() == [7]
+    assert again.differences(curve).tolist() == [7, 199_999]
+    sibling = moved.moved([3], (0.0, 1.0))
+    assert again.differences(sibling).tolist() == [3, 7]
     assert again.places([6, 7, 199_999]).tolist() == [[0, 0], [5, 6], [3, 4]]
     assert again.differences(Curve(np.zeros((200_000, 2)))) is None
     assert again.points[7].tolist() == [5, 6]
     assert moved.points[7].tolist() == [1, 2]
     assert replace(moved, name="wing").points[-1].tolist() == [3, 4]
+
+
+def test_moves_know_a_frozen_array_of_indices_again_but_no_array_that_may_change():
+    curve, own = Curve(np.zeros((90, 2))), np.array([5, 8])
+    frozen = own.copy()
+    frozen.flags.writeable = False
+    moved = curve.moved(frozen, (1.0, 2.0))
+    assert moved.differences(curve) is frozen
+    assert curve.moved(frozen, (3.0, 4.0)).differences(moved) is frozen
+    moved = curve.moved(own, (1.0, 2.0))
+    own[0] = 70
+    assert moved.differences(curve).tolist() == [5, 8]
 
 
 def test_a_curve_that_is_carried_costs_nothing_of_its_size():

@@ -5,8 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-import app.line
-from app.line import MOST_IN_PIECE, PIECE, UNCUT, WHOLE, Line, line_of, stride_of
+from app.line import MOST_IN_PIECE, PIECE, UNCUT, WHOLE, Line, line_of, ribbon_of, stride_of
 from core.runs import Runs
 
 
@@ -66,23 +65,7 @@ def test_a_loop_that_is_seen_whole_meets_itself():
     line = line_of(before, 60, UNCUT)
     (piece,) = line.pieces()
     np.testing.assert_array_equal(piece[0], piece[-1])
-    first, last = np.arange(60) == 0, np.arange(60) == 59
-    assert np.flatnonzero(line.widened(first)).tolist() == [0, 1, 59]
-    assert np.flatnonzero(line.widened(last)).tolist() == [0, 58, 59]
-
-
-def test_the_neighbours_of_a_segment_in_a_loop_of_several_are_over_its_own_seam():
-    parts = [np.arange(0.0, count) for count in (5, 7)]
-    loops = [Line(runs(t).vertices, t, np.array([0, len(t)])) for t in parts]
-    for loop in loops:
-        loop.vertices[-1] = loop.vertices[0]
-    line = Line(
-        np.concatenate([loop.vertices for loop in loops]),
-        np.concatenate([loop.t + 100 * place for place, loop in enumerate(loops)]),
-        np.array([0, 5, 12]),
-    )
-    chosen = np.arange(10) == 9
-    assert {4, 8, 9} <= set(np.flatnonzero(line.widened(chosen)).tolist()) <= {3, 4, 8, 9}
+    assert line.loops.tolist() == [True]
 
 
 def test_runs_go_on_over_the_seam_of_a_loop():
@@ -91,43 +74,87 @@ def test_runs_go_on_over_the_seam_of_a_loop():
     assert line.t.tolist() == [10, 11, 57, 58, 60, 61, 62]
 
 
-@pytest.mark.parametrize("few", [0, 512])
+def padded(segment):
+    """Box of a segment of `segments`."""
+    places = np.array(segment[3:7]).reshape(2, 2)
+    return np.concatenate([places.min(axis=0), places.max(axis=0)])
+
+
+def is_held(box, boxes):
+    low, high = boxes[:, :2] <= box[:2] + 1e-9, boxes[:, 2:] >= box[2:] - 1e-9
+    return (low & high).all(axis=1).any()
+
+
 @pytest.mark.parametrize("stride", [UNCUT, 8.0])
-def test_segments_that_only_one_line_has_are_told(stride, few, monkeypatch):
-    monkeypatch.setattr(app.line, "_FEW", few)
+def test_segments_that_only_one_line_has_are_in_the_boxes_and_so_are_their_neighbours(stride):
     rng = np.random.default_rng(1)
     t = np.arange(0.0, 61.0)
     line = line_of(runs(t), 60, stride)
-    for _ in range(40):
+    areas = []
+    for _ in range(120):
         low, high = np.sort(rng.integers(0, 60, 2))
         inner = np.sort(rng.uniform(low, high, rng.integers(0, 9)))
         changed = np.unique(np.concatenate([t[t <= low], inner, t[t >= high]]))
+        if rng.random() < 0.3:
+            changed = t
         near = np.searchsorted(changed, [low, high])
         parts = [changed] if rng.random() < 0.6 else [changed[: near[0] + 1], changed[near[1] :]]
         other = runs(*[part for part in parts if len(part) > 1])
         other.vertices[rng.integers(len(other.vertices))] += rng.choice([0.0, 1.0])
         after = line_of(other, 60, stride)
         for one, two in ((line, after), (after, line)):
-            mine, others = one.own(two)
-            for owner, own, left in ((one, mine, two), (two, others, one)):
-                known = set(segments(left))
-                lone = np.array([segment not in known for segment in segments(owner)])
-                assert not (lone & ~own).any()
-                assert few or not (own & ~lone).any()
+            boxes = np.array(one.unlike(two, 0.0)).reshape(-1, 4)
+            areas.append((np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)).sum())
+            for owner, left in ((one, two), (two, one)):
+                known, own = set(segments(left)), segments(owner)
+                for place, segment in enumerate(own):
+                    if segment in known:
+                        continue
+                    near = [k for k in (place - 1, place, place + 1) if 0 <= k < len(own)]
+                    if owner.loops.all() and len(owner.starts) == 2:
+                        near = [(place + k) % len(own) for k in (-1, 0, 1)]
+                    for k in near:
+                        if own[k][0] == segment[0]:  # of one piece
+                            assert is_held(padded(own[k]), boxes)
+    assert np.median(areas) < 0.5 * 200**2
 
 
-def test_what_is_before_and_behind_all_changes_is_common():
+def test_a_vertex_that_moves_is_in_one_small_box():
     line = line_of(runs(np.arange(0.0, 61.0)), 0, UNCUT)
-    changed = runs([*range(21), 20.5, *range(22, 61)])
-    mine, others = line.own(line_of(changed, 0, UNCUT))
-    assert np.flatnonzero(mine).tolist() == np.flatnonzero(others).tolist() == [20, 21]
+    other = Line(line.vertices.copy(), line.t, line.starts)
+    other.vertices[20] += 5.0
+    ((left, top, right, bottom),) = line.unlike(other, 1.0)
+    around = line.vertices[18:23]
+    assert (left, top) <= tuple(around.min(axis=0) - 1.0)
+    assert right - left <= np.ptp(around[:, 0]) + 7.0
+    assert bottom - top <= np.ptp(around[:, 1]) + 7.0
 
 
 def test_a_line_has_all_in_common_with_itself_and_nothing_with_none():
     line = line_of(runs(np.arange(0.0, 61.0)), 60, 8.0)
     nothing = Line(np.zeros((0, 2)), np.zeros(0), np.zeros(1, dtype=np.intp))
     same = line_of(runs(np.arange(0.0, 61.0)), 60, 8.0)
-    assert not any(mask.any() for mask in line.own(same))
-    mine, others = line.own(nothing)
-    assert mine.all()
-    assert len(others) == 0
+    assert line.unlike(same, 1.0) == []
+    (box,) = line.unlike(nothing, 0.0)
+    assert box == line.box
+    assert nothing.unlike(line, 0.0) == [box]
+
+
+def test_pieces_near_a_box_are_found():
+    line = line_of(runs(np.arange(0, 300, 0.25)), 0, 16.0)
+    for reach in (0.0, 5.0):
+        for box in ((295.0, 190.0, 301.0, 210.0), (0.0, 0.0, 9.0, 9.0)):
+            near = line.near(box, reach)
+            for piece, vertices in enumerate(line.pieces()):
+                inside = (vertices >= np.array(box[:2]) - reach) & (
+                    vertices <= np.array(box[2:]) + reach
+                )
+                assert piece in near or not inside.all(axis=1).any()
+            assert len(near) < len(line.starts) - 1
+
+
+def test_a_ribbon_keeps_its_breadth_where_it_is_cut():
+    vertices = np.array([(-2e4, 0.0), (2e4, 0.0)])
+    ribbon = ribbon_of(vertices, np.array([1.0, 5.0]))
+    np.testing.assert_allclose(ribbon.vertices, [(-1e4, 0), (1e4, 0)])
+    np.testing.assert_allclose(ribbon.halves, [2.0, 4.0])

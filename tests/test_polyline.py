@@ -3,16 +3,18 @@
 from itertools import pairwise
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from PySide6.QtCore import QPointF, Qt
 
 from app.polyline import (
     DENSE,
     SAFE_PX,
-    area_within_square,
+    SNAP,
+    SNAPPED_PX,
     point_of,
     polygon_of,
+    snapped,
     thinned,
     within_square,
 )  # fmt: skip
@@ -84,19 +86,13 @@ def test_a_line_far_away_leaves_nothing():
     assert cut_to(np.array([(1e6, 10.0), (1e6, 90.0), (2e6, 0.0)])) == []
 
 
-@given(polylines)
-def test_an_area_keeps_what_is_within_the_square(outline):
-    clipped = area_within_square(outline, 100.0)
-    assert np.abs(clipped).max(initial=0.0) <= 100.0 * (1 + 1e-9)
-    if np.abs(outline).max() > 1e6:
-        return
-    before, after = polygon_of(outline), polygon_of(clipped)
-    rule = Qt.FillRule.WindingFill
-    for x, y in np.random.default_rng(0).uniform(-99, 99, (40, 2)):
-        place = QPointF(x, y)
-        closed = np.concatenate([outline, outline[:1]])
-        if _distance(closed, np.array([x, y])) > 0.01:
-            assert before.containsPoint(place, rule) == after.containsPoint(place, rule)
+@pytest.mark.parametrize("ratio", [1.0, 1.25, 2.0])
+def test_snapped_places_are_off_by_less_than_can_be_seen_and_stay_where_they_are(ratio):
+    places = np.random.default_rng(0).uniform(-1e4, 1e4, (500, 2))
+    found = snapped(places, ratio)
+    assert np.hypot(*(found - places).T).max() * ratio <= SNAPPED_PX * (1 + 1e-9)
+    np.testing.assert_array_equal(snapped(found, ratio), found)
+    np.testing.assert_array_equal(found * ratio * SNAP, np.rint(found * ratio * SNAP))
 
 
 def test_thinning_moves_a_dense_curve_by_less_than_the_eye_sees():

@@ -103,7 +103,7 @@ def test_the_ribbon_is_as_broad_as_the_curve_follows_the_hand():
     document = boat()
     alone = Overlay(influences=(Influence(0, np.array([2]), np.ones(1)),))
     scene = drawn(document, overlay=alone)
-    ribbon = np.concatenate(scene.ribbons_px)
+    ribbon = np.concatenate([line.outline(0, 0.0) for line in scene.ribbons])
     curve = document.curves[0]
     moved = document.with_curve(0, curve.moved([2], curve.points[2] + by(0.0, 1.0)))
     parameters = document.parameters
@@ -115,13 +115,14 @@ def test_the_ribbon_is_as_broad_as_the_curve_follows_the_hand():
 
 def test_all_weights_1_give_a_ribbon_of_full_breadth_all_around():
     scene = drawn(boat(), overlay=following(*np.ones(8)))
-    (ribbon,) = scene.ribbons_px
+    (ribbon,) = scene.ribbons
     (outline,) = drawn(boat()).curves[0].outline_line.pieces()
-    assert away(outline, ribbon).min() == pytest.approx(SIZES.ribbon_width, abs=0.5)
+    sides = ribbon.outline(0, 0.0)
+    assert away(outline, sides).min() == pytest.approx(SIZES.ribbon_width, abs=0.5)
 
 
 def test_a_weak_influence_is_not_drawn():
-    assert drawn(boat(), overlay=following(FAINT / 2, *np.zeros(7))).ribbons_px == ()
+    assert drawn(boat(), overlay=following(FAINT / 2, *np.zeros(7))).ribbons == ()
 
 
 @pytest.mark.parametrize("count", [0, 1, 2])
@@ -139,7 +140,8 @@ def test_few_points(count, closed):
 def test_absurd_parameters_stay_finite(neighbours):
     document = boat().with_parameters(Parameters(100, 100, 100, neighbours))
     scene = drawn(document, origin=boat(), overlay=following(*np.ones(8)))
-    for part in (scene.curves[0].vertices_px, *scene.ribbons_px, *scene.ghosts[0].pieces()):
+    ribbons = [line.vertices for line in scene.ribbons]
+    for part in (scene.curves[0].vertices_px, *ribbons, *scene.ghosts[0].pieces()):
         assert np.isfinite(part).all()
     assert len(scene.curves[0].vertices_px) <= BUDGET
 
@@ -254,7 +256,7 @@ def test_moves_drawn_by_splices_are_the_curve_to_a_quarter_pixel():
                 document = Document((curve,), document.parameters)
                 drawn(document, camera, scene=scene)
                 (now,) = scene.curves
-                splices += now.base is not None
+                splices += now.splice is not None
                 limit = curve.limit(document.parameters)
                 exact = camera.to_pixels(limit.points(6))
                 seen = ((exact >= 0) & (exact <= (900, 600))).all(axis=1)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.splice import inserted
+from app.splice import Inset
 from core.runs import Runs
 
 
@@ -16,7 +16,7 @@ def line(*parts):
 
 def put(runs, *t):
     t = np.array(t, dtype=float)
-    return inserted(runs, t, np.stack([t, np.ones(len(t))], axis=-1))
+    return Inset(runs).filled([(t, np.stack([t, np.ones(len(t))], axis=-1))])
 
 
 def parts(runs):
