@@ -13,6 +13,7 @@ from core.affine import Affine
 from core.chords import size_constant
 from core.document import Curve
 from core.live import LiveCurve
+from core.runs import counted
 
 SHORT: Final = 64
 """Number of points and spans up to which a curve is drawn whole, without its levels of detail."""
@@ -49,8 +50,10 @@ class Compact:
     @cached_property
     def corners(self) -> Vertices:
         """All of the control polygon; a loop ends where it starts."""
-        indices = np.arange(self._curve.count + self._curve.is_loop)
-        return indices.astype(np.float64), self._curve.places(indices % self._curve.count)
+        points = self._curve.points
+        if self._curve.is_loop:
+            points = np.concatenate([points, points[:1]])
+        return counted(len(points))[0], points
 
     @cached_property
     def spacing(self) -> float:
@@ -59,19 +62,21 @@ class Compact:
         return float(np.hypot(*(points[1:] - points[:-1]).T).mean())
 
     @cached_property
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Corners of a box that holds curve and polygon.
+    def box(self) -> tuple[float, float, float, float]:
+        """Least x and y, and largest x and y, of a box that holds curve and polygon.
 
         The curve is a mean of its points, of weights whose sizes sum to `size_constant` at most.
         """
-        points = self.corners[1]
+        points = self._curve.points
         if self._limit is not None:
             points = np.concatenate([points, self._placed(self._limit.endless_points)])
-        low, high = points.min(axis=0), points.max(axis=0)
-        if self._limit is not None:
-            more = (size_constant(self._limit.mask) - 1) * (high - low) / 2
-            low, high = low - more, high + more
-        return low, high
+        left, low = np.minimum.reduce(points).tolist()
+        right, high = np.maximum.reduce(points).tolist()
+        if self._limit is None:
+            return left, low, right, high
+        half = (size_constant(self._limit.mask) - 1) / 2
+        wide, tall = half * (right - left), half * (high - low)
+        return left - wide, low - tall, right + wide, high + tall
 
     def vertices(self, tolerance: float) -> Vertices | None:
         """Vertices of all of the limit curve, as fine as `app.spans` makes them."""

@@ -63,6 +63,10 @@ def dirt(before: Mapping[Key, Ink], now: Mapping[Key, Ink]) -> list[Box]:
 
 def merged(boxes: list[Box]) -> list[Box]:
     """At most `MOST_RECTANGLES` boxes that hold all; those that overlap or are near go together."""
+    around = _united(boxes)
+    # Mostly they are all about one place.
+    if not around or _area(around[0]) <= WASTE * max(map(_area, boxes)) + WASTE_PX2:
+        return around
     found: list[Box] = []
     for box in boxes:
         if box[0] > box[2]:
@@ -109,4 +113,4 @@ def _both(one: Box, two: Box) -> Box:
 
 
 def _area(box: Box) -> float:
-    return (box[2] - box[0]) * (box[3] - box[1])
+    return (box[2] - box[0]) * (box[3] - box[1]) if box[0] <= box[2] else 0.0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -18,7 +18,7 @@ from core.document import Curve
 from core.family import Parameters
 from core.live import LiveCurve
 from core.picking import nearest_place, points_within
-from core.runs import Runs
+from core.runs import Runs, counted
 from core.view import view
 
 if TYPE_CHECKING:
@@ -230,14 +230,14 @@ def seen_mm(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 def _meets(compact: Compact, low: NDArray[np.float64], high: NDArray[np.float64]) -> bool:
     """Whether a short curve may be seen in a rectangle."""
-    lower, upper = compact.box
-    return bool((lower <= high).all() and (upper >= low).all())
+    left, bottom, right, top = compact.box
+    return bool(left <= high[0] and bottom <= high[1] and right >= low[0] and top >= low[1])
 
 
 def _whole(vertices: Vertices, centre: NDArray[np.float64], deviation: float) -> Runs:
     """All vertices of a curve as one run."""
     t, points = vertices
-    return Runs(points - centre, t, np.array([0, len(t)]), deviation)
+    return Runs(points - centre, t, counted(len(t))[1], deviation)
 
 
 def _shown(
@@ -246,15 +246,23 @@ def _shown(
     """Control points in view, unless their signs would only cover the curve."""
     compact, count = figure.compact, figure.curve.count
     if compact is not None and count >= 3:
-        lower, upper = compact.box
-        if (lower >= low).all() and (upper <= high).all():
+        left, bottom, right, top = compact.box
+        if left >= low[0] and bottom >= low[1] and right <= high[0] and top <= high[1]:
             hidden = compact.spacing * camera.scale < LEAST_SPACING_PX
-            return None if hidden else np.arange(count)
+            return None if hidden else _all(count)
     found = _within(figure, low, high, MOST_HANDLES)
     if found is None or len(found) < 3:
         return found
     ways = np.diff(figure.curve.places(found), axis=0) * camera.scale
     return None if float(np.hypot(*ways.T).mean()) < LEAST_SPACING_PX else found
+
+
+@lru_cache(maxsize=SHORT)
+def _all(count: int) -> NDArray[np.intp]:
+    """Indices of so many points, the same read-only array each time."""
+    indices = np.arange(count)
+    indices.flags.writeable = False
+    return indices
 
 
 def _within(

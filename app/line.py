@@ -35,7 +35,7 @@ from PySide6.QtGui import QPolygonF
 from app.outline import outline
 from app.pixel_box import Box, apart, around
 from app.polyline import SAFE_PX, polygon_of, thinned, within_square
-from core.runs import Runs
+from core.runs import Runs, counted
 
 WHOLE: Final = 512
 """Number of vertices up to which a run is drawn in one piece, without any seam."""
@@ -182,6 +182,13 @@ class Line:
         """Vertices, and both ends of each loop that has one near its seam."""
         if self._keeps_seam(changed) or not self.loops.any():
             return changed
+        if len(self.starts) == 2:
+            parts = [changed]
+            if changed[0] > 0:
+                parts.insert(0, np.zeros(1, dtype=np.intp))
+            if changed[-1] < len(self.t) - 1:
+                parts.append(self.starts[1:] - 1)
+            return np.concatenate(parts)
         firsts, lasts = self.starts[:-1][self.loops], self.starts[1:][self.loops] - 1
         ends = np.concatenate([firsts, lasts])
         # The first one from two before an end on is at most two behind it.
@@ -234,8 +241,10 @@ def stride_of(runs: Runs) -> float:
     runs
         The line as it is drawn from nothing; where it changes in parts, the stride is kept.
     """
+    if len(runs.parameters) <= WHOLE:
+        return UNCUT
     counts = np.diff(runs.starts)
-    if not len(counts) or counts.max() <= WHOLE:
+    if counts.max() <= WHOLE:
         return UNCUT
     t = runs.parameters
     length = float((t[runs.starts[1:] - 1] - t[runs.starts[:-1]]).sum())
@@ -282,8 +291,7 @@ def ribbon_of(vertices: NDArray[np.float64], halves: NDArray[np.float64]) -> Lin
     halves
         Half of the breadth at each, shape (k,).
     """
-    t = np.arange(len(vertices), dtype=np.float64)
-    starts = np.array([0, len(t)])
+    t, starts = counted(len(vertices))
     if not _is_safe(vertices):
         vertices, seen, starts = within_square(vertices, t, starts)
         t, halves = seen, np.interp(seen, t, halves)

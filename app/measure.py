@@ -116,8 +116,9 @@ def _outer(drawn: Drawn) -> NDArray[np.float64]:
     """Box that holds a curve: least x and y, and the negatives of the largest, shape (4,)."""
     figure = drawn.present()
     if figure.compact is not None:
-        low, high = figure.compact.box
-    elif figure.outline is not None:
+        left, bottom, right, top = figure.compact.box
+        return np.array([left, bottom, -right, -top])
+    if figure.outline is not None:
         box = figure.outline.box
         low, high = figure.placed.box(box[:2], -box[2:])
     else:

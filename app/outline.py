@@ -42,6 +42,10 @@ _COS: Final = np.cos(_ROUND)[:, None]
 _SIN: Final = np.sin(_ROUND)[:, None]
 """Vertices of a half circle: its chords are off by 3 % of the half breadth."""
 
+_LEFT: Final = np.array([1.0, -1.0])
+_AHEAD: Final = np.array([-1.0, 1.0])
+"""Turns by a right angle, after x and y have changed places: to the left side, and on from it."""
+
 
 def outline(
     vertices: NDArray[np.float64], half: float | NDArray[np.float64], is_loop: bool
@@ -65,17 +69,20 @@ def outline(
     """
     ways = vertices[1:] - vertices[:-1]
     # Not by hypot, whose last bits may depend on how many there are.
-    lengths = np.sqrt(ways[:, 0] ** 2 + ways[:, 1] ** 2)
+    lengths = np.sqrt(np.add.reduce(ways * ways, axis=1))
     if not lengths.all():
-        return _without_repeats(vertices, lengths, half, is_loop)
+        # A vertex on that before it has no direction of its own.
+        longer = lengths > 0
+        kept = np.concatenate([[True], longer])
+        vertices, ways, lengths = vertices[kept], ways[longer], lengths[longer]
+        half = half if isinstance(half, float) else half[kept]
     if not len(lengths):
         return _disc(vertices[0], float(np.max(half)))
-    across = np.empty_like(ways)
-    across[:, 0], across[:, 1] = ways[:, 1] / lengths, -ways[:, 0] / lengths
-    first, last = across[:1], across[-1:]
-    behind = np.concatenate([last if is_loop else first, across])
-    ahead = np.concatenate([across, first if is_loop else last])
-    bends = behind[:, 0] * ahead[:, 0] + behind[:, 1] * ahead[:, 1]
+    ways = ways / lengths[:, None]
+    first, last = ways[:1], ways[-1:]
+    along = np.concatenate([last, ways, first] if is_loop else [first, ways, last])
+    behind, ahead = along[:-1], along[1:]
+    bends = np.add.reduce(behind * ahead, axis=1)
     sides, middle = behind + ahead, vertices
     if bends.min() < SHARP:
         is_sharp = bends < SHARP
@@ -88,14 +95,12 @@ def outline(
         if is_loop and is_sharp[0]:  # its corner is at the end
             bends, sides, middle = bends[1:], sides[1:], middle[1:]
             half = half if isinstance(half, float) else half[1:]
-    sides = sides * (half / (1.0 + bends))[:, None]
+    sides = (sides * (half / (1.0 + bends))[:, None])[:, ::-1] * _LEFT
     left, right = middle + sides, (middle - sides)[::-1]
     if is_loop:
         return np.concatenate([left, right])
-    begin, end = (half, half) if isinstance(half, float) else (half[0], half[-1])
-    return np.concatenate(
-        [left, _cap(vertices[-1], end * last), right, _cap(vertices[0], -begin * first)]
-    )
+    end, begin = _caps(vertices[[-1, 0]], np.stack([sides[-1], -sides[0]]))
+    return np.concatenate([left, end, right, begin])
 
 
 def path_of(closed: NDArray[np.float64]) -> QPainterPath:
@@ -107,24 +112,16 @@ def path_of(closed: NDArray[np.float64]) -> QPainterPath:
     return path
 
 
-def _cap(middle: NDArray[np.float64], side: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Half circle from one side to the other, between the two."""
-    return middle + _COS * side + _SIN * (-side[:, ::-1] * (1.0, -1.0))
+def _caps(
+    middles: NDArray[np.float64], sides: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Half circles from one side to the other, (k, 5, 2) for k of them, ends left out."""
+    forwards = sides[:, None, ::-1] * _AHEAD
+    caps: NDArray[np.float64] = middles[:, None] + _COS * sides[:, None] + _SIN * forwards
+    return caps
 
 
 def _disc(middle: NDArray[np.float64], half: float) -> NDArray[np.float64]:
     side = np.array([[half, 0.0]])
-    return np.concatenate(
-        [middle + side, _cap(middle, side), middle - side, _cap(middle, -side)]
-    )
-
-
-def _without_repeats(
-    vertices: NDArray[np.float64],
-    lengths: NDArray[np.float64],
-    half: float | NDArray[np.float64],
-    is_loop: bool,
-) -> NDArray[np.float64]:
-    """Outline of a polyline some of whose vertices are that before them: they have no direction."""
-    kept = np.append(True, lengths > 0)
-    return outline(vertices[kept], half if isinstance(half, float) else half[kept], is_loop)
+    one, other = _caps(np.stack([middle, middle]), np.concatenate([side, -side]))
+    return np.concatenate([middle + side, one, middle - side, other])

@@ -12,14 +12,14 @@ from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QRectF
-from PySide6.QtGui import QFont, QFontMetricsF
+from PySide6.QtCore import QRect, QRectF
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter
 
 from app.dirt import Key
 from app.drawn import MOST_HANDLES, Drawn
 from app.ink import Band, Ink, Stroke, Words
 from app.line import Line
-from app.pixel_box import Box
+from app.pixel_box import Box, box_of, meeting
 from app.scene import Overlay, Scene
 from app.session import Selection
 from app.signs import Dots, Grip, Handles, Ring
@@ -75,7 +75,7 @@ class Setting(NamedTuple):
     ratio
         Device pixels per logical pixel.
     view
-        The part of the sheet that is painted on, in pixels.
+        The part of the sheet that is painted on, in whole pixels.
     font
         Font of the sheet.
     with_polygon
@@ -84,7 +84,7 @@ class Setting(NamedTuple):
 
     palette: Palette
     ratio: float
-    view: QRectF
+    view: QRect
     font: QFont
     with_polygon: bool
 
@@ -149,6 +149,13 @@ class Picture:
             if text:
                 put((layer, 0), _words, layer, text)
 
+    def paint(self, painter: QPainter, seen: Box) -> None:
+        """Paint what is seen of it in a box."""
+        left, top, right, bottom = seen
+        for ink in self.things.values():
+            box = ink.box
+            if box[0] <= right and box[2] >= left and box[1] <= bottom and box[3] >= top:
+                ink.paint(painter, seen)
 
     def _put_curves(
         self, put: _Put, setting: Setting, scene: Scene, selection: Selection
@@ -263,15 +270,13 @@ def _selected(setting: Setting, drawn: Drawn, chosen: NDArray[np.intp]) -> Ink |
         chosen = shown[chosen[places] == shown]
     chosen = chosen[chosen < drawn.curve.count]
     places_px = drawn.places_px(chosen)
-    reach = SIZES.hit_point
-    low = setting.view.left() - reach, setting.view.top() - reach
-    high = setting.view.right() + reach, setting.view.bottom() + reach
-    seen = ((places_px >= low) & (places_px <= high)).all(axis=1)
-    if not seen.any():
-        return None
+    seen = meeting(places_px, box_of(setting.view), SIZES.hit_point)
+    if not seen.all():
+        chosen, places_px = chosen[seen], places_px[seen]
+        if not len(chosen):
+            return None
     colour = setting.palette.point_selected
-    radius = SIZES.selected_radius
-    return Handles(chosen[seen], places_px[seen], colour, colour, radius, setting.ratio)
+    return Handles(chosen, places_px, colour, colour, SIZES.selected_radius, setting.ratio)
 
 
 def _overlay(setting: Setting, scene: Scene, overlay: Overlay) -> list[tuple[Layer, Ink]]:
@@ -302,7 +307,8 @@ def _words(setting: Setting, layer: Layer, text: str) -> Ink:
     font.setPointSizeF(HINT_POINTS)
     wide, high = HINT_PADDING_PX
     size = QFontMetricsF(font).size(0, text)
-    box, view = QRectF(0, 0, size.width() + 2 * wide, size.height() + 2 * high), setting.view
+    box = QRectF(0, 0, size.width() + 2 * wide, size.height() + 2 * high)
+    view = QRectF(setting.view)
     box.moveCenter(view.center())
     palette = setting.palette
     if layer == Layer.HINT:

@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
+from PySide6.QtCore import QRect
 
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom, in logical pixels."""
@@ -16,8 +17,14 @@ SMOOTHED_PX: Final = 1.5
 MOST_PARTS: Final = 8
 """Number of boxes that the difference of two things is told in."""
 
-_NEAR: Final = 16
+_NEAR: Final = 40
 """Places between two that differ up to which they go into one box."""
+
+
+def box_of(rectangle: QRect) -> Box:
+    """Box of some whole pixels."""
+    left, top = rectangle.left(), rectangle.top()
+    return left, top, left + rectangle.width(), top + rectangle.height()
 
 
 def around(places: NDArray[np.float64], reach: float) -> Box:

@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QRegion, QResizeEvent
+from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from app.camera import Camera
@@ -15,6 +15,7 @@ from app.dirt import dirt, region_of
 from app.grid import Background
 from app.guard import guarded
 from app.picture import HINT_ROOM_PX, Picture, Setting
+from app.pixel_box import box_of
 from app.rulers import Rulers
 from app.scene import NOTHING, Overlay, Scene
 from app.session import Selection, Session
@@ -31,6 +32,8 @@ NO_LIMIT_HINT: Final = (
     "These parameters have no limit curve; only the polygon is drawn. Move a slider a little."
 )
 """Shown when the scheme has no limit."""
+
+_SMOOTH: Final = QPainter.RenderHint.Antialiasing
 
 MM_PER_INCH: Final = 25.4
 
@@ -180,32 +183,22 @@ class Sheet(QWidget):
         if self._is_due or self._setting is None or self._present_setting() != self._setting[1]:
             # What differs outside of the event's region is painted by the next event.
             self._renew()
-        region = event.region()
+        setting = self._present_setting()
+        whole = around = event.region().boundingRect()
         with QPainter(self) as painter:
             # Qt has cut the painter to the region.
             painter.drawPixmap(0, 0, self._paper)
-            content = self._content()
-            painter.setClipRect(content)
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            self._paint_things(painter, region & content.toAlignedRect())
-            if self.hasFocus():
+            if not setting.view.contains(around):
+                painter.setClipRect(setting.view)
+                around = around.intersected(setting.view)
+            if not around.isEmpty():
+                painter.setRenderHint(_SMOOTH)
+                self._picture.paint(painter, box_of(around))
+            if self.hasFocus() and _is_at_edge(whole, self.rect()):
                 painter.setClipping(False)
-                painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-                painter.setPen(QPen(color(self._present_setting().palette.accent), 1.0))
+                painter.setRenderHint(_SMOOTH, False)
+                painter.setPen(QPen(color(setting.palette.accent), 1.0))
                 painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
-
-    def _paint_things(self, painter: QPainter, region: QRegion) -> None:
-        """Paint what is seen of the picture in a region."""
-        if region.isEmpty():
-            return
-        around = region.boundingRect()
-        left, top = float(around.left()), float(around.top())
-        right, bottom = left + around.width(), top + around.height()
-        seen = left, top, right, bottom
-        for ink in self._picture.things.values():
-            box = ink.box
-            if box[0] <= right and box[2] >= left and box[1] <= bottom and box[3] >= top:
-                ink.paint(painter, seen)
 
     @guarded
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -260,8 +253,8 @@ class Sheet(QWidget):
         ratio = self.devicePixelRatioF()
         key = self.palette().cacheKey(), ratio, self.width(), self.height(), self._show_polygon
         if self._setting is None or self._setting[0] != key:
-            content, font = self._content(), self.font()
-            made = Setting(palette_of(self), ratio, content, font, self._show_polygon)
+            view = self._content().toAlignedRect()
+            made = Setting(palette_of(self), ratio, view, self.font(), self._show_polygon)
             self._setting = key, made
         return self._setting[1]
 
@@ -303,7 +296,7 @@ class Sheet(QWidget):
                 self.update()
             return
         boxes = dirt(things, self._picture.things)
-        region = region_of(boxes, setting.view.toAlignedRect())
+        region = region_of(boxes, setting.view)
         if not region.isEmpty():
             self.update(region)
 
@@ -320,6 +313,11 @@ class Sheet(QWidget):
 
     def _on_selection_changed(self, old: Selection, new: Selection) -> None:
         self.refresh()
+
+
+def _is_at_edge(part: QRect, whole: QRect) -> bool:
+    """Whether a part of a rectangle touches one of its sides."""
+    return not whole.adjusted(1, 1, -1, -1).contains(part)
 
 
 def place_px(point: QPointF) -> NDArray[np.float64]:

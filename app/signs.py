@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -46,7 +46,7 @@ class _Points:
         """Half of a sign's size."""
         raise NotImplementedError
 
-    @property
+    @cached_property
     def box(self) -> Box:
         return around(self.places, self.reach)
 

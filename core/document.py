@@ -336,11 +336,12 @@ class Document:
 def _check(points: NDArray[np.float64], indices: NDArray[np.intp], name: str) -> None:
     """Refuse points that are not admitted; the message counts them from 1 by ``indices``."""
     # A comparison with nan is false, so this catches nan as well.
+    if not len(points) or np.abs(points).max() <= MAX_COORDINATE_MM:
+        return
     bad = ~(np.abs(points) <= MAX_COORDINATE_MM).all(axis=1)
-    if bad.any():
-        first = int(bad.argmax())
-        x, y = points[first]
-        raise NinepointError(
-            f"Point {indices[first] + 1} of {name!r} is ({x:g}, {y:g}); coordinates must be"
-            f" finite and at most {MAX_COORDINATE_MM:g} mm."
-        )
+    first = int(bad.argmax())
+    x, y = points[first]
+    raise NinepointError(
+        f"Point {indices[first] + 1} of {name!r} is ({x:g}, {y:g}); coordinates must be"
+        f" finite and at most {MAX_COORDINATE_MM:g} mm."
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -44,6 +45,17 @@ class Runs(NamedTuple):
         """The vertices of each run."""
         for first, after in zip(self.starts[:-1], self.starts[1:], strict=True):
             yield self.vertices[first:after]
+
+
+@lru_cache(maxsize=256)
+def counted(count: int) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """Parameters 0, 1, 2 ... of a single run of some vertices, and its `Runs.starts`.
+
+    They are the same arrays each time, read-only.
+    """
+    t, starts = np.arange(count, dtype=np.float64), np.array([0, count], dtype=np.intp)
+    t.flags.writeable = starts.flags.writeable = False
+    return t, starts
 
 
 class Chords:

@@ -27,10 +27,12 @@ def scribble(count, seed, closed=True):
 def test_the_box_holds_curve_and_polygon(member, count, closed, seed):
     curve = scribble(count, seed, closed)
     limit = LiveCurve(curve.points, member.mask, curve.is_loop)
-    low, high = Compact(curve, limit, IDENTITY, SpanVertices(range(limit.spans))).box
+    left, bottom, right, top = Compact(
+        curve, limit, IDENTITY, SpanVertices(range(limit.spans))
+    ).box
     points = np.concatenate([limit.points(6), curve.points])
-    assert (points >= low - 1e-9).all()
-    assert (points <= high + 1e-9).all()
+    assert (points >= np.array([left, bottom]) - 1e-9).all()
+    assert (points <= np.array([right, top]) + 1e-9).all()
 
 
 @pytest.mark.parametrize("placed", [IDENTITY, TURN])
