@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -52,14 +53,16 @@ class Camera(NamedTuple):
 
     def to_pixels(self, points_mm: ArrayLike) -> NDArray[np.float64]:
         """Pixels of points in millimetres, shape (..., 2)."""
+        centre, flip, middle = _frame(self)
         # The centre goes first: far from the origin this keeps the digits.
-        away = np.asarray(points_mm, dtype=np.float64) - (self.x_mm, self.y_mm)
-        return away * (self.scale, -self.scale) + (self.width / 2, self.height / 2)
+        pixels: NDArray[np.float64] = (np.asarray(points_mm) - centre) * flip + middle
+        return pixels
 
     def to_mm(self, points_px: ArrayLike) -> NDArray[np.float64]:
         """Millimetres of points in pixels, shape (..., 2)."""
-        away = np.asarray(points_px, dtype=np.float64) - (self.width / 2, self.height / 2)
-        return away / (self.scale, -self.scale) + (self.x_mm, self.y_mm)
+        centre, flip, middle = _frame(self)
+        points: NDArray[np.float64] = (np.asarray(points_px) - middle) / flip + centre
+        return points
 
     def rectangle_mm(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lower left and upper right corner of what is in view."""
@@ -120,3 +123,18 @@ class Camera(NamedTuple):
     def _looking_at(self, x_mm: float, y_mm: float, scale: float) -> Camera:
         x, y = np.clip([x_mm, y_mm], -MAX_CENTRE_MM, MAX_CENTRE_MM)
         return self._replace(x_mm=float(x), y_mm=float(y), scale=scale)
+
+
+@lru_cache(maxsize=16)
+def _frame(
+    camera: Camera,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """The place in the middle of a view, its scale with y turned over, and the middle in pixels.
+
+    Each event asks for them, and numbers take longer to become an array than to be added.
+    """
+    return (
+        np.array([camera.x_mm, camera.y_mm]),
+        np.array([camera.scale, -camera.scale]),
+        np.array([camera.width / 2, camera.height / 2]),
+    )

@@ -53,7 +53,7 @@ class Compact:
         points = self._curve.points
         if self._curve.is_loop:
             points = np.concatenate([points, points[:1]])
-        return counted(len(points))[0], points
+        return counted(len(points))[0], np.asfortranarray(points)
 
     @cached_property
     def spacing(self) -> float:

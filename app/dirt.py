@@ -19,7 +19,7 @@ from PySide6.QtCore import QRect
 from PySide6.QtGui import QRegion
 
 from app.ink import Ink
-from app.pixel_box import Box
+from app.pixel_box import Box, united
 
 Key = tuple[int, int]
 """Layer, and place within the layer: pictures are painted in rising order."""
@@ -88,8 +88,7 @@ def _united(boxes: list[Box]) -> list[Box]:
     """The box around all, if anything is in them."""
     if not boxes:
         return []
-    left, top, right, bottom = zip(*boxes, strict=True)
-    around = min(left), min(top), max(right), max(bottom)
+    around = united(boxes)
     return [around] if around[0] <= around[2] else []
 
 

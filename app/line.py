@@ -61,7 +61,7 @@ class Line:
     ----------
     vertices
         In pixels, shape (k, 2), piece after piece; where one goes on in the next, the vertex is in
-        both.
+        both. All x are stored before all y, so that NumPy goes along them and not across.
     t
         Places along the line, shape (k,), rising within a piece and from piece to piece.
     starts
@@ -126,7 +126,9 @@ class Line:
     @cached_property
     def _places(self) -> NDArray[np.complex128]:
         """The vertices as numbers x + i y, shape (k,): equal ones are found at once."""
-        return np.ascontiguousarray(self.vertices).view(np.complex128)[:, 0]
+        places = np.empty(len(self.vertices), dtype=np.complex128)
+        places.real, places.imag = self.vertices.T
+        return places
 
     @cached_property
     def _names(self) -> NDArray[np.complex128]:
@@ -263,7 +265,7 @@ def line_of(runs: Runs, period: int, stride: float) -> Line:
     stride
         It is cut where ``floor(t / stride)`` grows, so that no cut depends on what is elsewhere.
     """
-    vertices, t, starts = runs.vertices, runs.parameters, runs.starts
+    vertices, t, starts = np.asfortranarray(runs.vertices), runs.parameters, runs.starts
     if period and len(t) and t[0] == 0 and t[-1] == period:
         if len(starts) == 2:
             # The ends agree up to rounding; the pen shall meet itself without a cap.
@@ -291,6 +293,7 @@ def ribbon_of(vertices: NDArray[np.float64], halves: NDArray[np.float64]) -> Lin
     halves
         Half of the breadth at each, shape (k,).
     """
+    vertices = np.asfortranarray(vertices)
     t, starts = counted(len(vertices))
     if not _is_safe(vertices):
         vertices, seen, starts = within_square(vertices, t, starts)
@@ -319,7 +322,7 @@ def _cut(
 
 def _is_safe(vertices: NDArray[np.float64]) -> bool:
     """Whether Qt can hold all vertices, of which there must be one."""
-    return bool(vertices.max() <= SAFE_PX and vertices.min() >= -SAFE_PX)
+    return bool(np.abs(vertices).max() <= SAFE_PX)
 
 
 def _same(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:

@@ -88,7 +88,7 @@ def outline(
         is_sharp = bends < SHARP
         copies = 1 + is_sharp
         bends = np.where(is_sharp, 1.0, bends).repeat(copies)
-        sides, middle = sides.repeat(copies, axis=0), vertices.repeat(copies, axis=0)
+        sides, middle = (row.T.repeat(copies, axis=1).T for row in (sides, vertices))
         place = (np.cumsum(copies) - copies)[is_sharp]
         sides[place], sides[place + 1] = 2 * behind[is_sharp], 2 * ahead[is_sharp]
         half = half if isinstance(half, float) else half.repeat(copies)

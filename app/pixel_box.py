@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final
 
 import numpy as np
@@ -17,6 +18,8 @@ SMOOTHED_PX: Final = 1.5
 MOST_PARTS: Final = 8
 """Number of boxes that the difference of two things is told in."""
 
+_least, _largest = np.minimum.reduce, np.maximum.reduce
+
 _NEAR: Final = 40
 """Places between two that differ up to which they go into one box."""
 
@@ -31,16 +34,18 @@ def around(places: NDArray[np.float64], reach: float) -> Box:
     """Box around places, shape (k, 2), and a margin; without any, a box that nothing meets."""
     if not len(places):
         return np.inf, np.inf, -np.inf, -np.inf
-    left, top = np.minimum.reduce(places).tolist()
-    right, bottom = np.maximum.reduce(places).tolist()
+    x, y = places.T  # each by itself: along the first axis it takes ten times as long
+    left, top = float(_least(x)), float(_least(y))
+    right, bottom = float(_largest(x)), float(_largest(y))
     return left - reach, top - reach, right + reach, bottom + reach
 
 
 def meeting(places: NDArray[np.float64], box: Box, reach: float) -> NDArray[np.bool_]:
     """Which places, shape (k, 2), lie within a reach of a box."""
     left, top, right, bottom = box
-    near = (places >= (left - reach, top - reach)) & (places <= (right + reach, bottom + reach))
-    found: NDArray[np.bool_] = near[:, 0] & near[:, 1]
+    x, y = places.T
+    found: NDArray[np.bool_] = (x >= left - reach) & (x <= right + reach)
+    found &= (y >= top - reach) & (y <= bottom + reach)
     return found
 
 
@@ -71,8 +76,13 @@ def apart(
             wide = np.sort(wide[np.argpartition(gaps[wide], 1 - MOST_PARTS)[1 - MOST_PARTS :]])
         firsts, lasts = chosen[wide + 1].tolist(), chosen[wide].tolist()
         edges = list(zip([first, *firsts], [*lasts, last], strict=True))
-    boxes = []
-    for low, high in edges:
-        held = [row[max(low - beside, 0) : high + beside + 1] for row in rows]
-        boxes.append(around(held[0] if len(held) == 1 else np.concatenate(held), reach))
-    return boxes
+    return [
+        united(around(row[max(low - beside, 0) : high + beside + 1], reach) for row in rows)
+        for low, high in edges
+    ]
+
+
+def united(boxes: Iterable[Box]) -> Box:
+    """The box around some boxes, of which there must be one."""
+    left, top, right, bottom = zip(*boxes, strict=True)
+    return min(left), min(top), max(right), max(bottom)

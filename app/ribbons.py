@@ -146,13 +146,13 @@ def _parts(share: NDArray[np.float64]) -> list[tuple[slice, NDArray[np.float64]]
 def _longest(line: NDArray[np.float64]) -> float:
     """Length of the longest chord."""
     ways = line[1:] - line[:-1]
-    return math.sqrt((ways * ways).sum(axis=1).max())
+    return math.sqrt(np.add.reduce(ways * ways, axis=1).max())
 
 
 def _line(limit: LiveCurve, spans: NDArray[np.intp], level: int) -> NDArray[np.float64]:
     """Points of consecutive spans as one polyline, shape (m, 2)."""
-    points = limit.span_points(spans, level)
-    return np.concatenate([points[:, :-1].reshape(-1, 2), points[-1, -1:]])
+    points = limit.span_points(spans, level).transpose(2, 0, 1)
+    return np.concatenate([points[:, :, :-1].reshape(2, -1), points[:, -1, -1:]], axis=1).T
 
 
 def _joined(

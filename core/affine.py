@@ -33,7 +33,7 @@ class Affine:
     def __call__(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Images of points, shape (..., 2)."""
         if self is IDENTITY:
-            return points.copy()  # to the bit: a sum would turn -0.0 into 0.0
+            return points.copy(order="K")  # to the bit: a sum would turn -0.0 into 0.0
         if self.is_shift:
             return points + self.offset
         # Not by a matrix product, whose last bits depend on how many points there are.
