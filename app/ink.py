@@ -22,6 +22,7 @@ from app.outline import MITRED, path_of
 from app.pixel_box import SMOOTHED_PX, Box
 from app.polyline import point_of
 from app.style import Palette, color
+from core.extreme import largest
 
 
 class Ink(Protocol):
@@ -71,7 +72,7 @@ class Stroke:
     ) -> None:
         self.line, self.is_thin = line, is_thin
         self.colour, self.width, self.opacity = colour, width, opacity
-        half = width / 2 if line.halves is None else float(line.halves.max())
+        half = width / 2 if line.halves is None else largest(line.halves)
         self.reach = reach = MITRED * half + SMOOTHED_PX
         left, top, right, bottom = line.box
         self.box: Box = left - reach, top - reach, right + reach, bottom + reach
@@ -84,7 +85,7 @@ class Stroke:
             return [self.box, other.box]
         if self.line is other.line:
             return []
-        return self.line.unlike(other.line, max(self.reach, other.reach))
+        return self.line.unlike(other.line, max(self.reach, other.reach), self.is_thin)
 
     def paint(self, painter: QPainter, seen: Box) -> None:
         near = self.line.near(seen, self.reach)

@@ -35,6 +35,7 @@ from PySide6.QtGui import QPolygonF
 from app.outline import outline
 from app.pixel_box import Box, apart, around
 from app.polyline import SAFE_PX, polygon_of, thinned, within_square
+from core.extreme import largest, same
 from core.runs import Runs, counted
 
 WHOLE: Final = 512
@@ -118,9 +119,8 @@ class Line:
     @cached_property
     def loops(self) -> NDArray[np.bool_]:
         """Pieces that end where they start, shape (pieces,)."""
-        found: NDArray[np.bool_] = (
-            self._places[self.starts[:-1]] == self._places[self.starts[1:] - 1]
-        )
+        ends = self._places[self.starts[:-1]], self._places[self.starts[1:] - 1]
+        found: NDArray[np.bool_] = ends[0] == ends[1]
         return found
 
     @cached_property
@@ -138,26 +138,28 @@ class Line:
         names.imag[starts[:-1]] = names.imag[starts[1:] - 1] = ~self.loops
         return names
 
-    def unlike(self, other: Line, reach: float) -> list[Box]:
-        """Boxes with a margin outside of which both lines are the same picture, drawn alike."""
-        mine, others = self._own(other)
-        if mine is others:
-            return apart((self.vertices, other.vertices), mine, _BESIDE, reach)
-        return [*apart((self.vertices,), mine, _BESIDE, reach),
-                *apart((other.vertices,), others, _BESIDE, reach)]  # fmt: skip
+    def unlike(self, other: Line, reach: float, is_thin: bool = False) -> list[Box]:
+        """Boxes with a margin outside of which both lines are the same picture, drawn alike.
 
-    def _own(self, other: Line) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Vertices of this line that the other one has not, and those that only the other has.
-
-        A few that both have may be among them. Of a loop that differs near its seam, both sides of
-        the seam are. If a segment is not common, one of its ends is among these vertices, or what
-        the other line has between them.
+        Parameters
+        ----------
+        other
+            The other line.
+        reach
+            The margin.
+        is_thin
+            Whether a thin pen draws them, to which the neighbours of a segment make no difference.
         """
-        if _same(self.t, other.t) and _same(self.starts, other.starts):
+        beside = 1 if is_thin else _BESIDE
+        if same(self.t, other.t) and same(self.starts, other.starts):
             changed = self._changed(other)
-            return changed, changed
+            changed = changed if is_thin else self._over_seams(changed)
+            return apart((self.vertices, other.vertices), changed, beside, reach)
         mine, others = self._alone(other)
-        return self._over_seams(mine), other._over_seams(others)
+        if not is_thin:
+            mine, others = self._over_seams(mine), other._over_seams(others)
+        return [*apart((self.vertices,), mine, beside, reach),
+                *apart((other.vertices,), others, beside, reach)]  # fmt: skip
 
     def _changed(self, other: Line) -> NDArray[np.intp]:
         """Vertices that differ in lines of the same t and pieces."""
@@ -171,7 +173,7 @@ class Line:
         if opened.any():
             differ[self.starts[:-1][opened]] = differ[self.starts[1:][opened] - 1] = True
             changed = differ.nonzero()[0]
-        return self._over_seams(changed)
+        return changed
 
     def _keeps_seam(self, changed: NDArray[np.intp]) -> bool:
         """Whether no vertex near the ends of a line in one piece is among some."""
@@ -201,7 +203,11 @@ class Line:
         return np.union1d(changed, np.concatenate([firsts[meets], lasts[meets]]))
 
     def _alone(self, other: Line) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """The same for any two lines, without a look over the seams."""
+        """Vertices of this line that the other one has not, and those that only the other has.
+
+        A few that both have may be among them. If a segment is not common, one of its ends is among
+        these vertices, or what the other line has between them.
+        """
         sizes = len(self.t), len(other.t)
         count = min(sizes)
         before = _leading(self._alike(slice(count), other, slice(count)))
@@ -269,7 +275,7 @@ def line_of(runs: Runs, period: int, stride: float) -> Line:
     if period and len(t) and t[0] == 0 and t[-1] == period:
         if len(starts) == 2:
             # The ends agree up to rounding; the pen shall meet itself without a cap.
-            if (vertices[-1] != vertices[0]).any():
+            if vertices[-1].tolist() != vertices[0].tolist():
                 vertices = vertices.copy()
                 vertices[-1] = vertices[0]
         else:
@@ -322,12 +328,7 @@ def _cut(
 
 def _is_safe(vertices: NDArray[np.float64]) -> bool:
     """Whether Qt can hold all vertices, of which there must be one."""
-    return bool(np.abs(vertices).max() <= SAFE_PX)
-
-
-def _same(one: NDArray[np.generic], other: NDArray[np.generic]) -> bool:
-    """Whether two arrays of one dimension are equal."""
-    return one is other or (len(one) == len(other) and bool((one == other).all()))
+    return bool(largest(np.abs(vertices)) <= SAFE_PX)
 
 
 def _leading(flags: NDArray[np.bool_]) -> int:

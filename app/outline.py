@@ -30,6 +30,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainterPath
 
 from app.polyline import polygon_of
+from core.extreme import least
 
 SHARP: Final = 0.5
 """Cosine of the bend, 60 degrees, from which on corners are bevelled."""
@@ -68,9 +69,10 @@ def outline(
         neighbours alone, in every bit.
     """
     ways = vertices[1:] - vertices[:-1]
+    squares = ways * ways
     # Not by hypot, whose last bits may depend on how many there are.
-    lengths = np.sqrt(np.add.reduce(ways * ways, axis=1))
-    if not lengths.all():
+    lengths = np.sqrt(squares[:, 0] + squares[:, 1])
+    if len(lengths) and least(lengths) == 0:
         # A vertex on that before it has no direction of its own.
         longer = lengths > 0
         kept = np.concatenate([[True], longer])
@@ -82,9 +84,10 @@ def outline(
     first, last = ways[:1], ways[-1:]
     along = np.concatenate([last, ways, first] if is_loop else [first, ways, last])
     behind, ahead = along[:-1], along[1:]
-    bends = np.add.reduce(behind * ahead, axis=1)
+    products = behind * ahead
+    bends = products[:, 0] + products[:, 1]
     sides, middle = behind + ahead, vertices
-    if bends.min() < SHARP:
+    if least(bends) < SHARP:
         is_sharp = bends < SHARP
         copies = 1 + is_sharp
         bends = np.where(is_sharp, 1.0, bends).repeat(copies)

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRect
 
+from core.extreme import largest, least
+
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom, in logical pixels."""
 
@@ -18,10 +20,8 @@ SMOOTHED_PX: Final = 1.5
 MOST_PARTS: Final = 8
 """Number of boxes that the difference of two things is told in."""
 
-_least, _largest = np.minimum.reduce, np.maximum.reduce
-
-_NEAR: Final = 40
-"""Places between two that differ up to which they go into one box."""
+_NEAR_SHARE: Final = 1 / 8
+"""Part of a row that may lie between two places that differ for them to go into one box."""
 
 
 def box_of(rectangle: QRect) -> Box:
@@ -35,9 +35,7 @@ def around(places: NDArray[np.float64], reach: float) -> Box:
     if not len(places):
         return np.inf, np.inf, -np.inf, -np.inf
     x, y = places.T  # each by itself: along the first axis it takes ten times as long
-    left, top = float(_least(x)), float(_least(y))
-    right, bottom = float(_largest(x)), float(_largest(y))
-    return left - reach, top - reach, right + reach, bottom + reach
+    return least(x) - reach, least(y) - reach, largest(x) + reach, largest(y) + reach
 
 
 def meeting(places: NDArray[np.float64], box: Box, reach: float) -> NDArray[np.bool_]:
@@ -69,9 +67,10 @@ def apart(
         return []
     first, last = int(chosen[0]), int(chosen[-1])
     edges = [(first, last)]
-    if last - first >= len(chosen) - 1 + _NEAR:
+    near = 2 * beside + 1 + int(len(rows[0]) * _NEAR_SHARE)
+    if last - first >= len(chosen) - 1 + near:
         gaps = chosen[1:] - chosen[:-1]
-        wide = (gaps > _NEAR).nonzero()[0]
+        wide = (gaps > near).nonzero()[0]
         if len(wide) >= MOST_PARTS:
             wide = np.sort(wide[np.argpartition(gaps[wide], 1 - MOST_PARTS)[1 - MOST_PARTS :]])
         firsts, lasts = chosen[wide + 1].tolist(), chosen[wide].tolist()

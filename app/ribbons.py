@@ -12,6 +12,7 @@ from app.drawn import Drawn
 from app.line import Line, ribbon_of
 from app.polyline import snapped
 from app.style import SIZES
+from core.extreme import largest
 from core.live import LiveCurve
 from core.view import BUDGET
 
@@ -122,7 +123,7 @@ def ribbons(drawn: Drawn, influence: Influence) -> list[Line]:
     limit, indices = drawn.limit, influence.indices
     if limit is None or not limit.spans or not len(indices):
         return []
-    if indices.max() >= drawn.curve.count:
+    if largest(indices) >= drawn.curve.count:
         return []
     figure, camera = drawn.figure, drawn.camera
     touched, placed = figure.touched(indices), figure.placed
@@ -146,7 +147,8 @@ def _parts(share: NDArray[np.float64]) -> list[tuple[slice, NDArray[np.float64]]
 def _longest(line: NDArray[np.float64]) -> float:
     """Length of the longest chord."""
     ways = line[1:] - line[:-1]
-    return math.sqrt(np.add.reduce(ways * ways, axis=1).max())
+    squares = ways * ways
+    return math.sqrt(largest(squares[:, 0] + squares[:, 1]))
 
 
 def _line(limit: LiveCurve, spans: NDArray[np.intp], level: int) -> NDArray[np.float64]:

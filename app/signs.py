@@ -15,6 +15,7 @@ from app.ink import Ink, both
 from app.pixel_box import SMOOTHED_PX, Box, apart, around, meeting
 from app.polyline import point_of, polygon_of
 from app.style import SIZES, color
+from core.extreme import same
 
 _RING_GAP: Final = 3.5
 """Radius of the hover ring beyond that of the point, in pixels."""
@@ -53,8 +54,9 @@ class _Points:
     def unlike(self, other: Ink) -> list[Box]:
         if not isinstance(other, _Points) or self.look != other.look:
             return [self.box, other.box]
-        if self.names is other.names or np.array_equal(self.names, other.names):
-            own = (self.places != other.places).any(axis=1).nonzero()[0]
+        if same(self.names, other.names):
+            x, y = (self.places != other.places).T
+            own = (x | y).nonzero()[0]
             return apart((self.places, other.places), own, 0, self.reach)
         # Both name the points in rising order, in which those of both are painted.
         mine, lone = np.ones(len(self.names), bool), np.ones(len(other.names), bool)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.chords import chord_constant, second_difference_norm
+from core.extreme import largest, same
 from core.limit import LimitCurve
 from core.mask import Mask
 from core.pyramid import running_max
@@ -62,10 +63,10 @@ class SpanVertices:
         bounds = running_max(bends, reads - 2)
         # The level of a span is the number of those whose chords would be too far off.
         levels = self._largest(mask, tolerance).searchsorted(bounds)
-        finest = int(levels.max())
+        finest = largest(levels)
         if finest > FINEST:
             return None
-        if self._levels is None or not (levels == self._levels).all():
+        if self._levels is None or not same(levels, self._levels):
             self._lay_out(levels, finest)
         points = limit.span_points(slice(spans.start, spans.stop), finest)
         return self._t, points.transpose(2, 0, 1).reshape(2, -1).take(self._chosen, axis=1).T

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from core.affine import IDENTITY, Affine
 from core.errors import NinepointError
+from core.extreme import largest, least
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
 from core.ranges import united
@@ -154,10 +155,10 @@ class Curve:
             chosen = chosen.reshape(-1)
         count = self.count
         if len(chosen):
-            least, largest = int(chosen.min()), int(chosen.max())
-            if not -count <= least <= largest < count:
+            first, last = least(chosen), largest(chosen)
+            if not -count <= first <= last < count:
                 raise IndexError(f"{self.name!r} has {count} points")
-            if least < 0:
+            if first < 0:
                 chosen = chosen % count
         places = np.empty((len(chosen), 2))
         places[:] = positions
@@ -336,7 +337,7 @@ class Document:
 def _check(points: NDArray[np.float64], indices: NDArray[np.intp], name: str) -> None:
     """Refuse points that are not admitted; the message counts them from 1 by ``indices``."""
     # A comparison with nan is false, so this catches nan as well.
-    if not len(points) or np.abs(points).max() <= MAX_COORDINATE_MM:
+    if not len(points) or largest(np.abs(points)) <= MAX_COORDINATE_MM:
         return
     bad = ~(np.abs(points) <= MAX_COORDINATE_MM).all(axis=1)
     first = int(bad.argmax())

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from core.ends import extended, far, reach, write_ends
+from core.extreme import largest, least
 from core.limit import LimitCurve, columns
 from core.mask import Mask
 from core.ranges import around, within
@@ -127,7 +128,7 @@ class LiveCurve(LimitCurve):
 
     def _at_ends(self, moved: NDArray[np.intp]) -> tuple[bool, bool]:
         """Whether points lie so near the start, or the end, that phantom points follow them."""
-        return bool(moved.min() <= SIDE), bool(moved.max() >= len(self._points) - 1 - SIDE)
+        return least(moved) <= SIDE, largest(moved) >= len(self._points) - 1 - SIDE
 
     def _write_ends(self, mask: Mask) -> None:
         points, store = self._points, self._store
