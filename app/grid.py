@@ -32,6 +32,13 @@ STRIP: Final = 32
 AXIS_OPACITY: Final = 0.55
 """The lines through the origin are lines of the grid, only stronger."""
 
+_CORNER_PX: Final = 400.0
+"""From here on even the longest number keeps out of the corner of the rulers."""
+
+_LABEL: Final = int(
+    Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextDontClip
+)
+
 _MINOR: Final = {1: (10, 5, 2), 2: (4, 2), 5: (5,)}
 """Parts that a step of 1, 2 or 5 may be cut into, so that the small steps are round as well."""
 
@@ -127,41 +134,49 @@ def paint_grid(
         _rule(painter, axis, _axis_pixels(camera, axis, places), 0, length, ink)
 
 
-def paint_rulers(painter: QPainter, camera: Camera, palette: Palette, step: Step) -> None:
-    """Draw the rulers along the upper and the left edge, with the unit in the corner."""
+def paint_ruler(
+    painter: QPainter, camera: Camera, palette: Palette, step: Step, axis: int
+) -> None:
+    """Draw the ruler along the upper (0) or the left edge (1); the upper one has the unit, too."""
     low, high = camera.rectangle_mm()
-    breadth = SIZES.ruler
+    breadth, length = SIZES.ruler, (camera.width, camera.height)[axis]
     line, ground = color(palette.ruler_line), color(palette.ruler_background)
     painter.setFont(ruler_font(painter.font()))
-    for axis, length in ((0, camera.width), (1, camera.height)):
-        _fill(painter, [_box(axis, 0, 0, length, breadth)], ground)
-        minor, major = ticks(float(low[axis]), float(high[axis]), step)
-        places = _axis_pixels(camera, axis, minor)
-        _rule(painter, axis, places, breadth - SHORT_TICK_PX, breadth, line)
-        labelled = _axis_pixels(camera, axis, np.array(major) * step.size_mm)
-        _rule(painter, axis, labelled, breadth - LONG_TICK_PX, breadth, line)
-        painter.setPen(color(palette.ruler_text))
-        for count, place in zip(major, labelled.tolist(), strict=True):
-            _label(painter, axis, place, step.label(count))
-    _fill(painter, [QRectF(0, 0, breadth, breadth)], ground)
-    edge = np.array([breadth - 1.0])
-    _rule(painter, 1, edge, breadth - 1, camera.width, line)
-    _rule(painter, 0, edge, breadth - 1, camera.height, line)
+    _fill(painter, [_box(axis, 0, 0, length, breadth)], ground)
+    minor, major = ticks(float(low[axis]), float(high[axis]), step)
+    places = _axis_pixels(camera, axis, minor)
+    _rule(painter, axis, places, breadth - SHORT_TICK_PX, breadth, line)
+    labelled = _axis_pixels(camera, axis, np.array(major) * step.size_mm)
+    _rule(painter, axis, labelled, breadth - LONG_TICK_PX, breadth, line)
     painter.setPen(color(palette.ruler_text))
-    painter.drawText(QRectF(0, 0, breadth, breadth), Qt.AlignmentFlag.AlignCenter, "mm")
+    _write_labels(painter, axis, labelled.tolist(), [step.label(count) for count in major])
+    if axis == 0:
+        _fill(painter, [QRectF(0, 0, breadth, breadth)], ground)
+    edge = np.array([breadth - 1.0])
+    _rule(painter, 1 - axis, edge, breadth - 1, length, line)
+    if axis == 0:
+        _rule(painter, 0, edge, breadth - 1, breadth, line)
+        painter.setPen(color(palette.ruler_text))
+        corner = QRectF(0, 0, breadth, breadth)
+        painter.drawText(corner, Qt.AlignmentFlag.AlignCenter, "mm")
 
 
 class Background:
-    """Grid and rulers as one opaque picture, drawn again only when the view changes."""
+    """The grid, opaque, behind a drawing.
+
+    A view that is new is painted at once, where it is seen. A picture of it is made as soon as a
+    part of the same view is painted again: most views of a push or a zoom are seen once.
+    """
 
     def __init__(self) -> None:
-        self._key: tuple[object, ...] = ()
+        self._view: _View | None = None
         self._pixmap = QPixmap()
+        self._is_drawn = False
 
-    def pixmap(
-        self, camera: Camera, palette: Palette, ratio: float, font: QFont, with_grid: bool
-    ) -> QPixmap:
-        """Return the picture for a view; for another view, another one.
+    def look(
+        self, camera: Camera, palette: Palette, ratio: float, step: Step, with_grid: bool
+    ) -> None:
+        """Go over to a view.
 
         Parameters
         ----------
@@ -169,33 +184,62 @@ class Background:
             The view, and its colours.
         ratio
             Device pixels per logical pixel.
-        font
-            Font of the canvas; the rulers have a small one of its family.
+        step
+            Distance of the lines.
         with_grid
-            Whether the grid is drawn; the rulers always are.
+            Whether there is a grid at all.
         """
-        key = (camera, palette, ratio, font, with_grid)
-        if key != self._key:
-            self._key = key
-            wide, high = round(camera.width * ratio), round(camera.height * ratio)
-            self._pixmap = QPixmap(wide, high)
-            self._pixmap.setDevicePixelRatio(ratio)
-            step = view_step(camera, QFontMetricsF(ruler_font(font)))
-            # Upright lines are the same in all rows: rows are copied faster than columns drawn.
-            strip = QPixmap(wide, min(STRIP, high))
-            strip.setDevicePixelRatio(ratio)
-            strip.fill(color(palette.background))
-            if with_grid:
-                with QPainter(strip) as painter:
-                    paint_grid(painter, camera, palette, step, 0)
-            with QPainter(self._pixmap) as painter:
-                for top in range(0, high, strip.height()):
-                    painter.drawPixmap(QPointF(0, top / ratio), strip)
-                painter.setFont(font)
-                if with_grid:
-                    paint_grid(painter, camera, palette, step, 1)
-                paint_rulers(painter, camera, palette, step)
-        return self._pixmap
+        view = _View(camera, palette, ratio, step, with_grid)
+        self._is_drawn &= view == self._view
+        self._view = view
+
+    def paint(self, painter: QPainter, is_whole: bool) -> None:
+        """Paint it for the region that the painter is cut to; ``is_whole`` if that is all of it."""
+        view = self._view
+        if view is None:
+            return
+        if is_whole and not self._is_drawn:
+            view.paint(painter)
+            return
+        if not self._is_drawn:
+            wide, high = view.size
+            if (self._pixmap.width(), self._pixmap.height()) != (wide, high):
+                self._pixmap = QPixmap(wide, high)
+            self._pixmap.setDevicePixelRatio(view.ratio)
+            with QPainter(self._pixmap) as inner:
+                view.paint(inner)
+            self._is_drawn = True
+        painter.drawPixmap(0, 0, self._pixmap)
+
+
+class _View(NamedTuple):
+    """What a background shows, as `Background.look` is told it."""
+
+    camera: Camera
+    palette: Palette
+    ratio: float
+    step: Step
+    with_grid: bool
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in device pixels."""
+        return round(self.camera.width * self.ratio), round(self.camera.height * self.ratio)
+
+    def paint(self, painter: QPainter) -> None:
+        """Draw it."""
+        wide, high = self.size
+        # Upright lines are the same in all rows: rows are copied faster than columns drawn.
+        strip = QPixmap(wide, min(STRIP, high))
+        strip.setDevicePixelRatio(self.ratio)
+        strip.fill(color(self.palette.background))
+        if self.with_grid:
+            with QPainter(strip) as inner:
+                paint_grid(inner, self.camera, self.palette, self.step, 0)
+        for top in range(0, high, strip.height()):
+            painter.drawPixmap(QPointF(0, top / self.ratio), strip)
+        if self.with_grid:
+            paint_grid(painter, self.camera, self.palette, self.step, 1)
 
 
 def has_room(axis: int, place: float, width: float) -> bool:
@@ -246,14 +290,17 @@ def _fill(painter: QPainter, boxes: list[QRectF], ink: QColor) -> None:
     painter.setBrush(Qt.BrushStyle.NoBrush)
 
 
-def _label(painter: QPainter, axis: int, place: float, text: str) -> None:
-    """Write a number beside its tick, if it has room; on the left ruler it reads upwards."""
-    if not has_room(axis, place, QFontMetricsF(painter.font()).horizontalAdvance(text)):
-        return
-    flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextDontClip
+def _write_labels(
+    painter: QPainter, axis: int, places: list[float], labels: list[str]
+) -> None:
+    """Write numbers beside their ticks, if they have room; on the left ruler they read upwards."""
+    metrics = QFontMetricsF(painter.font())
     painter.save()
-    painter.translate(*((place, 1.0) if axis == 0 else (1.0, place)))
     if axis == 1:
         painter.rotate(-90)
-    painter.drawText(QRectF(LABEL_INDENT_PX, 0, 1, 1), int(flags), text)
+    for place, text in zip(places, labels, strict=True):
+        # The corner is in the way of the first ones only.
+        if place > _CORNER_PX or has_room(axis, place, metrics.horizontalAdvance(text)):
+            along = place + LABEL_INDENT_PX if axis == 0 else LABEL_INDENT_PX - place
+            painter.drawText(QRectF(along, 1.0, 1.0, 1.0), _LABEL, text)
     painter.restore()

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Final
-
-from PySide6.QtCore import QPointF, QRect, QRectF, QSizeF, Qt
-from PySide6.QtGui import QPalette, QPixmap
+from PySide6.QtCore import QPointF, QRect, Qt
+from PySide6.QtGui import QFont, QPainter, QPalette, QPen, QPixmap
 from PySide6.QtWidgets import QLabel, QWidget
 
-from app.style import SIZES, color
-
-FRAME_PX: Final = 1
-"""Edge of the sheet that the rulers leave free, for the frame of what has the focus."""
+from app.camera import Camera
+from app.grid import Step, paint_ruler
+from app.style import SIZES, Palette, color
 
 
 class Rulers:
-    """Two strips of the background in front of the sheet, each with a mark.
+    """Two strips in front of the sheet, along its upper and its left edge, each with a mark.
 
     They are widgets that Qt paints by itself. Marks painted by the sheet would make what it has to
     paint, for each move of the mouse, reach from both rulers to the drawing.
@@ -23,11 +20,10 @@ class Rulers:
     Parameters
     ----------
     sheet
-        The widget along whose upper and left edge they lie.
+        The widget that they lie on.
     """
 
     def __init__(self, sheet: QWidget) -> None:
-        self._paper: QPixmap | None = None
         self._strips = QLabel(sheet), QLabel(sheet)
         self._marks = QWidget(self._strips[0]), QWidget(self._strips[1])
         for widget in (*self._strips, *self._marks):
@@ -37,40 +33,61 @@ class Rulers:
             mark.setAutoFillBackground(True)
             mark.hide()
 
-    def show_paper(self, paper: QPixmap, accent: str) -> None:
-        """Show the strips of a background, and marks of a colour.
+    def show_view(
+        self,
+        camera: Camera,
+        palette: Palette,
+        ratio: float,
+        font: QFont,
+        step: Step,
+        has_focus: bool,
+    ) -> None:
+        """Draw the rulers of a view.
 
         Parameters
         ----------
-        paper
-            Picture of the whole sheet; the same one is never shown with other ink on it.
-        accent
-            Colour of the marks.
+        camera, palette, step
+            As in `app.grid.paint_ruler`.
+        ratio
+            Device pixels per logical pixel.
+        font
+            Font of the sheet.
+        has_focus
+            Whether the frame of what has the focus runs over them.
         """
-        if paper is self._paper:
-            return
-        self._paper = paper
-        ratio = paper.devicePixelRatioF()
-        wide, high = round(paper.width() / ratio), round(paper.height() / ratio)
-        upper = QRect(FRAME_PX, FRAME_PX, wide - 2 * FRAME_PX, SIZES.ruler - FRAME_PX)
-        left = QRect(FRAME_PX, SIZES.ruler, SIZES.ruler - FRAME_PX, high - SIZES.ruler - FRAME_PX)
+        breadth = SIZES.ruler
+        places = (
+            QRect(0, 0, camera.width, breadth), QRect(0, breadth, breadth, camera.height - breadth)
+        )  # fmt: skip
+        accent = color(palette.accent)
         colours = QPalette()
-        colours.setColor(QPalette.ColorRole.Window, color(accent))
-        for strip, mark, place in zip(self._strips, self._marks, (upper, left), strict=True):
+        colours.setColor(QPalette.ColorRole.Window, accent)
+        for axis, (strip, mark, place) in enumerate(
+            zip(self._strips, self._marks, places, strict=True)
+        ):
+            picture = QPixmap(round(place.width() * ratio), round(place.height() * ratio))
+            picture.setDevicePixelRatio(ratio)
+            with QPainter(picture) as painter:
+                painter.translate(-place.x(), -place.y())
+                painter.setFont(font)
+                paint_ruler(painter, camera, palette, step, axis)
+                if has_focus:
+                    painter.setPen(QPen(accent, 1.0))
+                    painter.drawRect(0, 0, camera.width - 1, camera.height - 1)
             strip.setGeometry(place)
-            corner, size = QPointF(place.topLeft()) * ratio, QSizeF(place.size()) * ratio
-            strip.setPixmap(paper.copy(QRectF(corner, size).toRect()))
+            strip.setPixmap(picture)
             mark.setPalette(colours)
 
     def mark(self, position: QPointF | None) -> None:
         """Mark a place of the sheet, or none."""
+        breadth = SIZES.ruler
         for axis, mark in enumerate(self._marks):
             place = -1 if position is None else int((position.x(), position.y())[axis])
-            if place < SIZES.ruler:
+            if place < breadth:
                 mark.hide()
-                continue
-            if axis == 0:
-                mark.setGeometry(place - FRAME_PX, 0, 1, SIZES.ruler - FRAME_PX)
             else:
-                mark.setGeometry(0, place - SIZES.ruler, SIZES.ruler - FRAME_PX, 1)
-            mark.show()
+                if axis == 0:
+                    mark.setGeometry(place, 0, 1, breadth)
+                else:
+                    mark.setGeometry(0, place - breadth, breadth, 1)
+                mark.show()

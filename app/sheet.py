@@ -7,12 +7,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from app.camera import Camera
 from app.dirt import dirt, region_of
-from app.grid import Background
+from app.grid import Background, ruler_font, view_step
 from app.guard import guarded
 from app.picture import HINT_ROOM_PX, Picture, Setting
 from app.pixel_box import box_of
@@ -69,7 +69,6 @@ class Sheet(QWidget):
         self._is_fitted = True
         self._scene = Scene()
         self._background = Background()
-        self._paper = QPixmap()
         self._rulers = Rulers(self)
         self._picture = Picture()
         self._setting: tuple[tuple[object, ...], Setting] | None = None
@@ -187,7 +186,7 @@ class Sheet(QWidget):
         whole = around = event.region().boundingRect()
         with QPainter(self) as painter:
             # Qt has cut the painter to the region.
-            painter.drawPixmap(0, 0, self._paper)
+            self._background.paint(painter, whole.contains(setting.view))
             if not setting.view.contains(around):
                 painter.setClipRect(setting.view)
                 around = around.intersected(setting.view)
@@ -282,10 +281,7 @@ class Sheet(QWidget):
         self._ground = ground
         if is_other:
             self._is_stale = True
-            self._paper = self._background.pixmap(
-                self._camera, setting.palette, setting.ratio, setting.font, self._show_grid
-            )
-            self._rulers.show_paper(self._paper, setting.palette.accent)
+            self._look_behind(setting)
         self._settle()
         notice = self._notice if self.session.document.curves else ""
         self._picture.update(
@@ -299,6 +295,13 @@ class Sheet(QWidget):
         region = region_of(boxes, setting.view)
         if not region.isEmpty():
             self.update(region)
+
+    def _look_behind(self, setting: Setting) -> None:
+        """Have grid and rulers show the view."""
+        camera, palette, ratio = self._camera, setting.palette, setting.ratio
+        step = view_step(camera, QFontMetricsF(ruler_font(setting.font)))
+        self._background.look(camera, palette, ratio, step, self._show_grid)
+        self._rulers.show_view(camera, palette, ratio, setting.font, step, self.hasFocus())
 
     def _on_changed(self, old: Document, new: Document) -> None:
         # The first state of a history has no name. Undo and cancel lead back to the document that

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from PySide6.QtGui import QFont, QFontMetricsF
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QImage, QPainter
 
 from app.camera import Camera
 from app.grid import Background, Step, has_room, ruler_font, step_for, ticks, view_step
@@ -78,25 +78,47 @@ def test_labels_have_room_wherever_one_looks(qapp, scale, centre):
         assert metrics.horizontalAdvance(label) <= step.size_mm * scale
 
 
-@pytest.mark.parametrize("ratio", [1.0, 1.5, 2.0])
-def test_the_background_is_opaque_and_kept(qapp, ratio):
+STEP = Step(10, 0, 5)
+
+
+def painted(background, size, ratio=1.0, is_whole=True):
+    image = QImage(*(round(length * ratio) for length in size), QImage.Format.Format_RGB32)
+    image.setDevicePixelRatio(ratio)
+    image.fill(QColor("red"))
+    with QPainter(image) as painter:
+        background.paint(painter, is_whole)
+    return image
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.25, 1.5, 2.0])
+@pytest.mark.parametrize("with_grid", [True, False])
+def test_the_background_is_the_same_at_once_and_from_the_picture_that_is_kept(
+    qapp, monkeypatch, ratio, with_grid
+):
     background = Background()
-    camera = Camera(0, 0, 4.0, 300, 200)
-    first = background.pixmap(camera, LIGHT, ratio, QFont(), True)
-    assert (first.width(), first.height()) == (round(300 * ratio), round(200 * ratio))
-    assert not first.toImage().hasAlphaChannel()
-    key, picture = first.cacheKey(), first.toImage()
-    again = background.pixmap(camera, LIGHT, ratio, QFont(), True)
-    assert again.cacheKey() == key
-    other = background.pixmap(camera, DARK, ratio, QFont(), True)
-    assert other.cacheKey() != key
-    back = background.pixmap(camera, LIGHT, ratio, QFont(), True)
-    assert back.toImage() == picture
+    camera = Camera(3, -2, 4.0, 300, 200)
+    background.look(camera, LIGHT, ratio, STEP, with_grid)
+    first = painted(background, (300, 200), ratio)
+    assert first == painted(background, (300, 200), ratio, is_whole=False)
+    assert first.pixelColor(5, 5).name() in (LIGHT.background, LIGHT.grid, LIGHT.grid_major)
+    drawn = []
+    monkeypatch.setattr("app.grid.paint_grid", lambda *args: drawn.append(args))
+    background.look(camera, LIGHT, ratio, STEP, with_grid)
+    for is_whole in (True, False):  # the picture is kept as long as the view is
+        assert first == painted(background, (300, 200), ratio, is_whole)
+    assert drawn == []
+    monkeypatch.undo()
+    background.look(camera, DARK, ratio, STEP, with_grid)
+    assert first != painted(background, (300, 200), ratio)
+    background.look(camera, LIGHT, ratio, STEP, with_grid)
+    assert first == painted(background, (300, 200), ratio, is_whole=False)
 
 
 def test_grid_lines_are_crisp(qapp):
-    image = Background().pixmap(Camera(0, 0, 4.0, 301, 201), LIGHT, 1.0, QFont(), True).toImage()
-    row = [image.pixelColor(x, 150).name() for x in range(40, 301)]
+    background = Background()
+    background.look(Camera(0, 0, 4.0, 301, 201), LIGHT, 1.0, STEP, True)
+    image = painted(background, (301, 201))
+    row = [image.pixelColor(x, 150).name() for x in range(301)]
     assert set(row) <= {LIGHT.background, LIGHT.grid, LIGHT.grid_major, *_axis(image)}
 
 
@@ -106,6 +128,7 @@ def _axis(image):
 
 
 def test_without_a_grid_the_paper_is_plain(qapp):
-    image = Background().pixmap(Camera(0, 0, 4.0, 300, 200), LIGHT, 1.0, QFont(), False).toImage()
-    colours = {image.pixelColor(x, 120).name() for x in range(SIZES.ruler, 300)}
-    assert colours == {LIGHT.background}
+    background = Background()
+    background.look(Camera(0, 0, 4.0, 300, 200), LIGHT, 1.0, STEP, False)
+    image = painted(background, (300, 200))
+    assert {image.pixelColor(x, 120).name() for x in range(300)} == {LIGHT.background}
