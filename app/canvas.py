@@ -36,8 +36,8 @@ NOTCH_FACTOR: Final = 1.2
 """Zoom of one notch."""
 
 FOLLOW_MS: Final = 40
-"""Least time between two texts that follow the mouse: to write and paint them takes as long as a
-tenth of a frame, and nobody reads faster."""
+"""Least time between two texts that follow the mouse, and two marks on the rulers: to write and
+paint them takes as long as a tenth of a frame, and nobody reads faster."""
 
 PINCH_LEAST: Final = 0.1
 """Least factor of one step of a pinch."""
@@ -173,11 +173,9 @@ class Canvas(Sheet):
 
     @guarded
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        position = event.position()
         self._hand.move(event.buttons(), _pointer(event))
-        self.mark_mouse(position)
         self._show_hand()
-        self._news.offer(position)
+        self._news.offer(event.position())
 
     @guarded
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
@@ -247,7 +245,6 @@ class Canvas(Sheet):
     @guarded
     def leaveEvent(self, event: QEvent) -> None:
         self._hand.leave()
-        self.mark_mouse(None)
         self._news.settle(None)
         self._show_hand()
 
@@ -277,7 +274,8 @@ class Canvas(Sheet):
             self.setCursor(shape)
 
     def _tell_place(self, position: QPointF | None) -> None:
-        """Announce where the mouse is, and the hint, which may tell how far it has moved."""
+        """Tell and mark where the mouse is, and give the hint, which may tell how far it moved."""
+        self.mark_mouse(position)
         if position is None:
             self.cursor_moved.emit(None)
         else:
