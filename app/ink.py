@@ -18,7 +18,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QFont, QPainter, QPainterPath, QPen, QPolygonF
 
 from app.line import Line
-from app.outline import MITRED, path_of
+from app.outline import path_of
 from app.pixel_box import SMOOTHED_PX, Box
 from app.polyline import point_of
 from app.style import Palette, color
@@ -73,7 +73,7 @@ class Stroke:
         self.line, self.is_thin = line, is_thin
         self.colour, self.width, self.opacity = colour, width, opacity
         half = width / 2 if line.halves is None else largest(line.halves)
-        self.reach = reach = MITRED * half + SMOOTHED_PX
+        self.reach = reach = half + SMOOTHED_PX
         left, top, right, bottom = line.box
         self.box: Box = left - reach, top - reach, right + reach, bottom + reach
         self._look = colour, width, opacity, is_thin, line.halves is None

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 
-from app.outline import MITRED, outline, path_of
+from app.outline import outline, path_of
 from app.polyline import polygon_of
 
 SIDE = 200
@@ -120,7 +120,7 @@ def test_the_breadth_at_each_vertex_is_kept():
 
 @given(st.lists(st.tuples(st.floats(20, 180), st.floats(20, 180)), min_size=1, max_size=9),
        st.floats(0.5, 6.0), st.booleans())  # fmt: skip
-def test_it_stays_within_a_mitre_of_the_line(places, half, is_loop):
+def test_it_stays_beside_the_line(places, half, is_loop):
     vertices = np.array(places)
     if is_loop:
         vertices = np.concatenate([vertices, vertices[:1]])
@@ -132,7 +132,7 @@ def test_it_stays_within_a_mitre_of_the_line(places, half, is_loop):
     length = np.maximum((way**2).sum(axis=1), 1e-300)
     share = ((way * (found[:, None] - start)).sum(axis=2) / length).clip(0, 1)
     away = np.hypot(*(start + share[..., None] * way - found[:, None]).transpose(2, 0, 1))
-    assert away.min(axis=1).max() <= MITRED * half + 1e-9
+    assert away.min(axis=1).max() <= half + 1e-9
 
 
 def test_far_from_a_vertex_that_moves_it_is_the_same_in_every_bit():
@@ -147,4 +147,4 @@ def test_far_from_a_vertex_that_moves_it_is_the_same_in_every_bit():
             near = vertices[place - 1 : place + 2]
             lost = np.array(sorted(held - kept)).reshape(-1, 2)
             away = np.hypot(*(lost[:, None] - near).transpose(2, 0, 1)).min(axis=1)
-            assert (away < 2 * MITRED * 1.3).all()
+            assert (away < 2 * 1.3).all()
