@@ -48,9 +48,9 @@ _NOTHING: Final = Runs(np.zeros((0, 2)), np.zeros(0), np.zeros(1, dtype=np.intp)
 _NO_INDICES: Final = np.zeros(0, dtype=np.intp)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Drawn:
-    """A curve as it is drawn.
+    """A curve as it is drawn; nothing changes it, but to freeze it would take longer than to make it.
 
     Attributes
     ----------

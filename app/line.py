@@ -55,9 +55,9 @@ _BESIDE: Final = 2
 """Vertices on either side of one that differs up to which the outline depends on it."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Line:
-    """A line in pieces.
+    """A line in pieces; nothing changes it.
 
     Attributes
     ----------

@@ -24,7 +24,7 @@ _RING_WIDTH: Final = 3.0
 """Pen of the hover ring."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class _Points:
     """Signs of some control points.
 
@@ -68,7 +68,7 @@ class _Points:
                 *apart((other.places,), lone.nonzero()[0], 0, self.reach)]  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Handles(_Points):
     """Control points as small discs with a rim, on whole device pixels, so that they are crisp."""
 
@@ -92,7 +92,7 @@ class Handles(_Points):
         _stamp(painter, pixmap, places)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Dots(_Points):
     """Control points in a crowd."""
 

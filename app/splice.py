@@ -9,7 +9,6 @@ the cut and its end, within the same of the new one, whose ends are places on th
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ from app.drawn import SPLICED_FROM, TOLERANCE_PX, Drawn, seen_mm
 from app.figure import differing
 from app.polyline import snapped
 from app.spans import SpanVertices
+from core.document import Curve
 from core.ranges import around, within
 from core.runs import Runs
 
@@ -100,25 +100,20 @@ class Splice:
             (t, camera.to_pixels(curve.places(indices)))
             for t, indices in zip(self._corner_times, self._corners, strict=True)
         ]
-        return replace(
-            base,
-            curve=curve,
-            outline=self._outline.filled(bent),
-            polygon=self._polygon.filled(straight),
-            shown=self._shown_of(curve.places(self.changed)),
-            splice=self,
-        )
+        shown = None if base.shown is None else self._shown_of(base.shown, curve)
+        return Drawn(
+            curve, base.scheme, figure, camera, base.ratio, self._outline.filled(bent),
+            self._polygon.filled(straight), shown, base.strides, self,
+        )  # fmt: skip
 
-    def _shown_of(self, places: NDArray[np.float64]) -> NDArray[np.intp] | None:
-        """Control points that are shown, if those that move are at some places."""
-        base = self.base
-        if base.shown is None:
-            return None
-        low, high = seen_mm(base.camera)
+    def _shown_of(self, shown: NDArray[np.intp], curve: Curve) -> NDArray[np.intp]:
+        """Control points that are shown of a curve, by those of the base."""
+        low, high = seen_mm(self.base.camera)
+        places = curve.places(self.changed)
         inside = ((places >= low) & (places <= high)).all(axis=1)
         sign = inside.tobytes()
         if self._shown is None or self._shown[0] != sign:
-            others = np.setdiff1d(base.shown, self.changed)
+            others = np.setdiff1d(shown, self.changed)
             self._shown = sign, np.union1d(others, self.changed[inside])
         return self._shown[1]
 
