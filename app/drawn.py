@@ -50,7 +50,7 @@ _NO_INDICES: Final = np.zeros(0, dtype=np.intp)
 
 @dataclass(eq=False)
 class Drawn:
-    """A curve as it is drawn; nothing changes it, but to freeze it would take longer than to make it.
+    """A curve as it is drawn; nothing changes it, though to freeze it would take too long.
 
     Attributes
     ----------
