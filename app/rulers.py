@@ -25,13 +25,11 @@ class Rulers:
 
     def __init__(self, sheet: QWidget) -> None:
         self._strips = QLabel(sheet), QLabel(sheet)
-        self._marks = QWidget(self._strips[0]), QWidget(self._strips[1])
-        for widget in (*self._strips, *self._marks):
-            widget.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        for strip, mark in zip(self._strips, self._marks, strict=True):
+        self._marks: list[QWidget] = []  # made when the mouse comes, after the first paint
+        self._colours = QPalette()
+        for strip in self._strips:
+            strip.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
             strip.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
-            mark.setAutoFillBackground(True)
-            mark.hide()
 
     def show_view(
         self,
@@ -60,11 +58,10 @@ class Rulers:
             QRect(0, 0, camera.width, breadth), QRect(0, breadth, breadth, camera.height - breadth)
         )  # fmt: skip
         accent = color(palette.accent)
-        colours = QPalette()
-        colours.setColor(QPalette.ColorRole.Window, accent)
-        for axis, (strip, mark, place) in enumerate(
-            zip(self._strips, self._marks, places, strict=True)
-        ):
+        self._colours.setColor(QPalette.ColorRole.Window, accent)
+        for mark in self._marks:
+            mark.setPalette(self._colours)
+        for axis, (strip, place) in enumerate(zip(self._strips, places, strict=True)):
             picture = QPixmap(round(place.width() * ratio), round(place.height() * ratio))
             picture.setDevicePixelRatio(ratio)
             with QPainter(picture) as painter:
@@ -76,11 +73,14 @@ class Rulers:
                     painter.drawRect(0, 0, camera.width - 1, camera.height - 1)
             strip.setGeometry(place)
             strip.setPixmap(picture)
-            mark.setPalette(colours)
 
     def mark(self, position: QPointF | None) -> None:
         """Mark a place of the sheet, or none."""
         breadth = SIZES.ruler
+        if not self._marks:
+            if position is None:
+                return
+            self._marks = [self._new_mark(strip) for strip in self._strips]
         for axis, mark in enumerate(self._marks):
             place = -1 if position is None else int((position.x(), position.y())[axis])
             if place < breadth:
@@ -91,3 +91,10 @@ class Rulers:
                 else:
                     mark.setGeometry(0, place - breadth, breadth, 1)
                 mark.show()
+
+    def _new_mark(self, strip: QWidget) -> QWidget:
+        mark = QWidget(strip)
+        mark.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        mark.setAutoFillBackground(True)
+        mark.setPalette(self._colours)
+        return mark

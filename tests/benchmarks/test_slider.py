@@ -56,11 +56,15 @@ def test_slider_move_to_all_painted(qtbot: QtBot, comparison: Comparison, count:
     for k in range(MOVES):
         parameters = Parameters(f"{k}/1000", "-1/2", f"{k}/1000")
         seen.missing = {*seen.widgets}
+        places = window.canvas.scene.curves[0].vertices_px
         start, before = perf_counter(), badge.sentence
         session.adjust(session.document.with_parameters(parameters))
         assert window.analysis.finding.parameters is parameters
         if badge.sentence == before:
             seen.missing.remove(badge)
+        # Among very many points no vertex may move by as much as the screen can tell.
+        if np.array_equal(window.canvas.scene.curves[0].vertices_px, places):
+            seen.missing.remove(window.canvas)
         while seen.missing:
             QApplication.processEvents(WAIT)
         times.append(perf_counter() - start)
