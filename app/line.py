@@ -340,16 +340,24 @@ def _cuts(
     """
     t, starts = held_t.array, held_starts.array
     cells = np.floor(t / stride)
-    fresh = np.concatenate([[False], cells[1:] != cells[:-1]])
+    fresh = np.zeros(len(t) + 1, dtype=bool)
+    fresh[1:-1] = cells[1:] != cells[:-1]
     # A piece has a segment at least; those at the starts of runs are cut anyway.
-    fresh[starts[1:] - 1] = fresh[starts[:-1]] = False
-    ends = np.union1d(np.flatnonzero(fresh), starts)
-    for piece in np.flatnonzero(np.diff(ends) > MOST_IN_PIECE):
+    fresh[starts[1:] - 1] = fresh[starts] = False
+    ends = _with(fresh, starts)
+    for piece in np.flatnonzero(ends[1:] - ends[:-1] > MOST_IN_PIECE):
         fresh[ends[piece] + PIECE : ends[piece + 1] - 1 : PIECE] = True
-    cuts = np.flatnonzero(fresh)
-    places = np.repeat(np.arange(len(t)), 1 + fresh)
-    first = np.union1d(cuts, starts)
+    cuts = fresh.nonzero()[0]
+    places = np.repeat(np.arange(len(t)), 1 + fresh[:-1])
+    first = _with(fresh, starts)
     return places, t[places], first + np.searchsorted(cuts, first, "right")
+
+
+def _with(chosen: NDArray[np.bool_], more: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Indices of what is chosen, and more of them, rising: `numpy.union1d` loads masked arrays."""
+    both = chosen.copy()
+    both[more] = True
+    return both.nonzero()[0]
 
 
 def _is_safe(vertices: NDArray[np.float64]) -> bool:

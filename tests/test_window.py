@@ -1,4 +1,6 @@
+import subprocess
 import sys
+from pathlib import Path
 from threading import Event
 
 import numpy as np
@@ -87,6 +89,30 @@ def test_the_plots_come_after_the_first_paint(qtbot):
         window.show()
     assert window.docks.basis_plot.isVisible()
     assert window.docks.step_plot.isVisible()
+
+
+def test_the_first_paint_loads_nothing_that_it_does_not_need():
+    script = """
+import sys
+from app.settings import Settings
+from app.theme import styled_application
+from app.window import MainWindow
+application = styled_application("ninepoint")
+window = MainWindow(settings=Settings(None))
+window.show()
+window.canvas.repaint()
+assert window.canvas.scene.curves[0].outline_line.near((0, 0, 900, 900), 1.0)
+heavy = ("pyqtgraph", "ezdxf", "msgspec", "scipy", "numpy.ma")
+print(*(name for name in heavy if name in sys.modules))
+sys.stdout.flush()
+import os
+os._exit(0)
+"""
+    root = Path(__file__).parents[1]
+    run = subprocess.run(
+        [sys.executable, "-c", script], cwd=root, capture_output=True, text=True, check=True
+    )
+    assert run.stdout.strip() == ""
 
 
 def test_nothing_moves_after_the_first_paint(qtbot):
