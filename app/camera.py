@@ -54,8 +54,10 @@ class Camera(NamedTuple):
     def to_pixels(self, points_mm: ArrayLike) -> NDArray[np.float64]:
         """Pixels of points in millimetres, shape (..., 2)."""
         centre, flip, middle = _frame(self)
+        # All x before all y: so NumPy goes along many points, and not across each of them.
+        points = np.asarray(points_mm, order="F")
         # The centre goes first: far from the origin this keeps the digits.
-        pixels: NDArray[np.float64] = (np.asarray(points_mm) - centre) * flip + middle
+        pixels: NDArray[np.float64] = (points - centre) * flip + middle
         return pixels
 
     def to_mm(self, points_px: ArrayLike) -> NDArray[np.float64]:

@@ -12,6 +12,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from core.extreme import least
+
 DYADIC: Final = 2**10
 """Places on a span that a curve is grabbed at: t is a multiple of 1/1024."""
 
@@ -71,9 +73,11 @@ def nearest_point(
         if not len(points):
             continue
         # The last of equals: points are drawn in order, so it lies on top.
-        squares = ((points - pos_px) ** 2).sum(axis=1)[::-1]
-        index = len(points) - 1 - int(squares.argmin())
-        distance = float(np.sqrt(squares.min()))
+        x, y = points.T
+        away_x, away_y = x - pos_px[0], y - pos_px[1]
+        squares = (away_x * away_x + away_y * away_y)[::-1]
+        place = int(squares.argmin())
+        index, distance = len(points) - 1 - place, float(np.sqrt(squares[place]))
         if distance <= radius_px and (best is None or distance < best.distance_px):
             best = PointHit(curve, index, distance)
     return best
@@ -156,18 +160,22 @@ def _nearest_on(
     """Segment, share of it and distance of the nearest place on a polyline, not in its gaps."""
     if len(vertices) < 2:
         return None
-    ends = np.roll(vertices, -1, axis=0) if closed else vertices[1:]
-    starts = vertices if closed else vertices[:-1]
-    way, away = ends - starts, pos - starts
+    x, y = vertices.T
+    from_x, from_y = (x, y) if closed else (x[:-1], y[:-1])
+    to_x, to_y = (np.roll(x, -1), np.roll(y, -1)) if closed else (x[1:], y[1:])
+    way_x, way_y = to_x - from_x, to_y - from_y
+    away_x, away_y = pos[0] - from_x, pos[1] - from_y
     # Far out of view the squares may overflow; such segments are at an infinite distance.
     with np.errstate(over="ignore", invalid="ignore"):
-        length = (way**2).sum(axis=1)
-        along = (way * away).sum(axis=1)
+        length = way_x * way_x + way_y * way_y
+        along = way_x * away_x + way_y * away_y
         share = np.divide(along, length, out=np.zeros_like(along), where=length > 0)
-        share = np.clip(np.nan_to_num(share), 0.0, 1.0)
-        squares = ((away - share[:, None] * way) ** 2).sum(axis=1)
-    squares = np.nan_to_num(squares, nan=np.inf)
+        np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share)
+        off_x, off_y = away_x - share * way_x, away_y - share * way_y
+        squares = off_x * off_x + off_y * off_y
     if gaps is not None:
         squares[gaps] = np.inf
+    if np.isnan(least(squares)):
+        squares[np.isnan(squares)] = np.inf
     index = int(squares.argmin())
     return index, float(share[index]), float(np.sqrt(squares[index]))
