@@ -38,7 +38,7 @@ from app.polyline import SAFE_PX, polygon_of, thinned, within_square
 from core.extreme import largest, same
 from core.runs import Runs, counted
 
-WHOLE: Final = 128
+WHOLE: Final = 320
 """Number of vertices up to which a run is drawn in one piece, without any seam."""
 
 PIECE: Final = 64
