@@ -179,10 +179,10 @@ class Sheet(QWidget):
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:
-        if self._is_due or self._setting is None or self._present_setting() != self._setting[1]:
+        setting = self._present_setting()
+        if self._is_due or not self._ground or setting is not self._ground[0]:
             # What differs outside of the event's region is painted by the next event.
             self._renew()
-        setting = self._present_setting()
         whole = around = event.region().boundingRect()
         with QPainter(self) as painter:
             # Qt has cut the painter to the region.

@@ -169,6 +169,14 @@ def test_one_draw_for_many_edits(canvas, session, monkeypatch):
     assert len(draws) == 1
 
 
+def test_another_screen_is_noticed_when_the_sheet_is_painted_there(canvas, monkeypatch):
+    QApplication.processEvents()
+    assert canvas.scene.curves[0].ratio == 1.0
+    monkeypatch.setattr(canvas, "devicePixelRatioF", lambda: 2.0)  # it changes without a word
+    canvas.repaint()
+    assert canvas.scene.curves[0].ratio == 2.0
+
+
 def test_posted_events_alone_bring_the_new_picture(canvas, session, monkeypatch):
     # Without a turn of the loop for a timer: labels that follow the mouse are painted with it.
     QApplication.processEvents()
