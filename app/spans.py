@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.chords import chord_constant, second_difference_norm
+from core.chords import chord_constant
 from core.extreme import largest, same
 from core.limit import LimitCurve
 from core.mask import Mask
@@ -74,8 +74,7 @@ class SpanVertices:
     def _largest(self, mask: Mask, tolerance: float) -> NDArray[np.float64]:
         """Largest second differences that the levels from 0 to `FINEST` admit, rising."""
         if self._limits is None or self._limits[:2] != (mask, tolerance):
-            norms = [second_difference_norm(mask, level) for level in range(1, FINEST + 1)]
-            bounds = chord_constant(mask) * np.array([1.0, *norms])
+            bounds = np.array([chord_constant(mask, level) for level in range(FINEST + 1)])
             # A straight line admits any of them, at a constant of 0 too.
             with np.errstate(divide="ignore"):
                 self._limits = mask, tolerance, np.maximum.accumulate(tolerance / bounds)

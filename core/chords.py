@@ -5,17 +5,19 @@ Notes
 Let ``E(t)`` be the difference between the curve on a unit interval of t and the chord between its
 ends. It vanishes on linear data, so it is a combination of the second differences of the control
 points, ``E(t) = sum_r g_r(t) D2p_r`` (summation by parts, twice), and ``|E| <= c max |D2p|`` with
-``c = sup_t sum_r |g_r(t)|``. The same holds at level L for the refined polygon, whose second
+``c = sup_t sum_r |g_r(t)|``. The same holds for the chords of the interval's 2^L equal parts, with
+a constant c_L of their own, and for the difference between the curve and its control polygon, with
+p_i at t = i, as all schemes of the family reproduce lines (theory, section 5).
+
+The sup is proven. L refinements, L >= 1, cut a cell ``[i - 1/2, i + 1/2]`` of t, and a span
+``[i, i + 1]`` too, into 2^L cells of the refined polygon (theory, section 1), whose second
 differences are at most ``rho_L max |D2p|``; rho_L is the norm of the L-fold refinement of second
-differences, whose symbol is ``a(z) / (1+z)^2``.
-
-The same holds for the difference between the curve and its control polygon, with p_i at t = i, as
-all schemes of the family reproduce lines (theory, section 5).
-
-The sup is proven: between the samples of level m the curve differs from the chords by at most
-``c rho_m``, so ``c <= c_m + c rho_m`` with the largest sample ``c_m``, hence
-``c <= c_m / (1 - rho_m)``. Norms and samples are floats; their rounding, some 1e-13 relative, is
-covered by the factor `ROUNDING`.
+differences, whose symbol is ``a(z) / (1+z)^2``. So between samples of level m the curve differs
+from their chords by at most ``c rho_m``, c the constant of a cell. Let s_m be the largest distance
+of such a sample from the chord that is asked about, for data whose second differences are at most
+1. Then ``c <= s_m + c rho_m`` for a cell, hence ``c <= s_m / (1 - rho_m)``, and
+``c_L <= s_m + c rho_m`` for the parts of cells and spans, m >= L. Norms and samples are floats;
+their rounding, some 1e-13 relative, is covered by the factor `ROUNDING`.
 """
 
 from __future__ import annotations
@@ -37,6 +39,13 @@ ROUNDING: Final = 1 + 1e-10
 
 _SAMPLE_LEVELS: Final = (4, 6, 8, 10)
 """Levels of the samples, tried in turn until refinement halves the second differences."""
+
+_FINER: Final = 4
+"""Levels by which samples are finer than the parts whose chords are asked about, at least: what
+may lie between them adds a percent."""
+
+_FINEST_SAMPLES: Final = 12
+"""Level of the finest samples. Beyond, bounds of parts are valid, but less sharp."""
 
 _SIZE_LEVEL: Final = 8
 """Level of the samples of sizes: what the chord bound leaves between them is below 1e-5."""
@@ -69,26 +78,38 @@ def _folded(mask: Mask, level: int) -> NDArray[np.float64]:
 
 
 @lru_cache(maxsize=MEMORY)
-def chord_constant(mask: Mask) -> float:
+def chord_constant(mask: Mask, level: int = 0) -> float:
     """Constant c of the bound ``|C - chord| <= c max |D2p|`` on a span ``[i, i + 1]``.
 
-    The maximum runs over the second differences of the points that the span reads.
+    Parameters
+    ----------
+    mask
+        The scheme.
+    level
+        The chords are those of the ``2^level`` equal parts of the span.
+
+    Returns
+    -------
+    float
+        The maximum runs over the second differences of the points that the span reads.
 
     Raises
     ------
     NoLimitError
         If refinement is not seen to shrink second differences, so that no bound is proven.
     """
-    basis = BasicLimitFunction(mask)
-    return _constant(mask, lambda level: basis.table(level))
+    return _constant(mask, level, BasicLimitFunction(mask).span_table)
 
 
 @lru_cache(maxsize=MEMORY)
-def cell_constant(mask: Mask) -> float:
+def cell_constant(mask: Mask, level: int = 0) -> float:
     """The same on a cell ``[i - 1/2, i + 1/2]`` of the dual grid; see `core.cells`."""
-    basis = BasicLimitFunction(mask)
-    width = mask.end - mask.start
-    return _constant(mask, lambda level: basis.values(level)[:-1].reshape(width, -1)[::-1])
+    table = BasicLimitFunction(mask).cell_table
+    if level:
+        return _constant(mask, level, table)
+    samples = _sample_level(mask)
+    largest = _largest(_off_chords(table(samples)))
+    return largest / (1 - second_difference_norm(mask, samples)) * ROUNDING
 
 
 @lru_cache(maxsize=MEMORY)
@@ -100,7 +121,7 @@ def size_constant(mask: Mask) -> float:
     """
     level = _SIZE_LEVEL
     largest = float(np.abs(BasicLimitFunction(mask).table(level)).sum(axis=0).max())
-    rest = 4 * chord_constant(mask) * second_difference_norm(mask, level)
+    rest = 4 * cell_constant(mask) * second_difference_norm(mask, level)
     return (largest + rest) * ROUNDING
 
 
@@ -143,12 +164,12 @@ def bounds(mask: Mask) -> Bounds:
         chord = chord_constant(mask)
     except NoLimitError:
         finest = COARSE_LEVEL if grows(mask) else _FINE
-        samples = basis.table(finest)
+        samples = basis.span_table(finest)
         chord = _largest(_off_chords(samples)) * ROUNDING
         return Bounds(chord, _largest(_off_polygon(samples, mask)) * ROUNDING, knot, finest)
     level = _SAMPLE_LEVELS[0]
-    rest = chord * second_difference_norm(mask, level)
-    polygon = (_largest(_off_polygon(basis.table(level), mask)) + rest) * ROUNDING
+    rest = cell_constant(mask) * second_difference_norm(mask, level)
+    polygon = (_largest(_off_polygon(basis.span_table(level), mask)) + rest) * ROUNDING
     return Bounds(chord, polygon, knot, None)
 
 
@@ -158,50 +179,65 @@ def grows(mask: Mask) -> bool:
 
     That is seen, not proven.
     """
-    table = BasicLimitFunction(mask).table
-    errors = []
-    for level in (_FINE - 2, _FINE - 1):
-        samples = table(level + 1)
-        nodes = np.hstack([samples[:, ::2], _next_start(samples)])
-        middles = samples[:, 1::2] - (nodes[:, :-1] + nodes[:, 1:]) / 2
-        errors.append(_largest(middles))
-    return errors[1] >= errors[0] > 0
+    table = BasicLimitFunction(mask).span_table
+    before, after = (
+        _largest(_off_chords(table(level + 1), level)) for level in (_FINE - 2, _FINE - 1)
+    )
+    return after >= before > 0
 
 
-def _constant(mask: Mask, table: Callable[[int], NDArray[np.float64]]) -> float:
-    """Constant for an interval whose weights of the control points, at samples, are the table."""
+def _sample_level(mask: Mask) -> int:
+    """Level to which refinement at least halves the second differences."""
     for level in _SAMPLE_LEVELS:
-        growth = second_difference_norm(mask, level)
-        if growth < 1 / 2:
-            break
-    else:
-        raise NoLimitError(
-            "No deviation can be proven for these parameters: the curve may not converge."
-            " Bring alpha, beta and gamma closer to a preset."
-        )
-    return _largest(_off_chords(table(level))) / (1 - growth) * ROUNDING
+        if second_difference_norm(mask, level) < 1 / 2:
+            return level
+    raise NoLimitError(
+        "No deviation can be proven for these parameters: the curve may not converge."
+        " Bring alpha, beta and gamma closer to a preset."
+    )
 
 
-def _off_chords(samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights of the control points in the distance of samples (r, m) from the chord."""
-    tau = np.arange(samples.shape[1]) / samples.shape[1]
-    error: NDArray[np.float64] = samples - (1 - tau) * samples[:, :1] - tau * _next_start(samples)
-    return error
+def _constant(mask: Mask, level: int, table: Callable[[int], NDArray[np.float64]]) -> float:
+    """Constant of the parts of an interval whose weights, both ends included, are the table."""
+    samples = max(_sample_level(mask), level + _FINER)
+    if samples > _FINEST_SAMPLES:
+        # No sample lies inside a part then.
+        return cell_constant(mask) * second_difference_norm(mask, level) * ROUNDING
+    between = cell_constant(mask) * second_difference_norm(mask, samples)
+    return (_largest(_off_chords(table(samples), level)) + between) * ROUNDING
+
+
+def _off_chords(samples: NDArray[np.float64], level: int = 0) -> NDArray[np.float64]:
+    """Weights of the control points in the distance of samples from chords.
+
+    Parameters
+    ----------
+    samples
+        Weights of the control points in samples of an interval, ends included; shape (r, m + 1).
+    level
+        The chords are those of the ``2^level`` equal parts.
+
+    Returns
+    -------
+    ndarray
+        Shape (r, m).
+    """
+    parts = 1 << level
+    inner = samples[:, :-1].reshape(len(samples), parts, -1)
+    knots = samples[:, :: inner.shape[2], None]
+    tau = np.arange(inner.shape[2]) / inner.shape[2]
+    error: NDArray[np.float64] = inner - (1 - tau) * knots[:, :-1] - tau * knots[:, 1:]
+    return error.reshape(len(samples), -1)
 
 
 def _off_polygon(samples: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
-    """The same for the distance of samples of a span from the edge of the polygon."""
-    tau = np.arange(samples.shape[1]) / samples.shape[1]
-    error = samples.copy()
+    """The same for the distance of samples of a span, its end left out, from the polygon's edge."""
+    error = samples[:, :-1].copy()
+    tau = np.arange(error.shape[1]) / error.shape[1]
     # Row r weighs p_{i + r + 1 - end}.
     error[mask.end - 1] -= 1 - tau
     error[mask.end] -= tau
     return error
-
-
-def _next_start(samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights at the end of the interval: its points are read one place further on."""
-    return np.vstack([np.zeros((1, 1)), samples[:-1, :1]])
 
 
 def _largest(error: NDArray[np.float64]) -> float:

@@ -24,7 +24,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.chords import chord_constant, second_difference_norm
+from core.chords import chord_constant
 from core.limit import LimitCurve
 from core.route import Route
 from core.samples import FINEST_LEVEL
@@ -172,7 +172,7 @@ def _levels(
     bounds = np.empty(curve.spans)
     waiting = np.ones(curve.spans, dtype=np.bool_)
     for level in range(LEVEL, FINEST_LEVEL + 1):
-        factor = chord_constant(mask) * second_difference_norm(mask, level)
+        factor = chord_constant(mask, level)
         reached = waiting & ((factor * largest <= admitted) | (level == FINEST_LEVEL))
         levels[reached] = level
         bounds[reached] = factor * largest[reached]

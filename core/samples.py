@@ -3,7 +3,7 @@
 Notes
 -----
 Between two neighbouring samples of level L the curve leaves their chord by at most
-``c rho_L max |D2p|`` (see `core.chords`), the maximum running over the second differences that the
+``c_L max |D2p|`` (see `core.chords`), the maximum running over the second differences that the
 span reads. Each span takes the coarsest level at which this bound is a given share of the
 tolerance; what `core.flatten`, `core.arcs` and `core.beziers` find at the samples is then a proof
 for the whole curve.
@@ -20,7 +20,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from core.basis import BasicLimitFunction
-from core.chords import chord_constant, second_difference_norm
+from core.chords import chord_constant
 from core.errors import NinepointError
 from core.limit import LimitCurve
 
@@ -174,10 +174,7 @@ def _levels(
     # A coordinate of a curve point is off by some 8 eps of the largest coordinate, and what is made
     # of two of them, a distance from a chord, by twice as much more.
     rounding = 32 * np.finfo(float).eps * float(np.abs(curve.endless_points).max())
-    factors = [
-        chord_constant(mask) * second_difference_norm(mask, level)
-        for level in range(FINEST_LEVEL + 1)
-    ]
+    factors = [chord_constant(mask, level) for level in range(FINEST_LEVEL + 1)]
     levels = np.full(curve.spans, -1, dtype=np.intp)
     for level, factor in enumerate(factors):
         admitted = share if level < FINEST_LEVEL else _LARGEST_BOUND_SHARE

@@ -5,7 +5,7 @@ Notes
 The pyramid is descended from its top: nodes out of the rectangle are dropped, those that are
 straight within the tolerance become chords, two and four of them at a time where that suffices.
 Where a single span is too bent, its window of control points says by the same bound
-``c rho_l max |D2p|`` (`core.chords`) at which dyadic level l its chords are straight enough; above
+``c_l max |D2p|`` (`core.chords`) at which dyadic level l its chords are straight enough; above
 level 3 its eight parts are looked at apart, each with the control points that three refinements
 give it, so that only those in the rectangle are followed, at any zoom.
 """
@@ -22,8 +22,9 @@ from core.affine import IDENTITY, Affine
 from core.basis import BasicLimitFunction
 from core.blocks import FAN, bends_of, boxes_of, from_segments
 from core.cells import STEP, refinements
-from core.chords import cell_constant, second_difference_norm
+from core.chords import cell_constant, chord_constant
 from core.limit import LimitCurve
+from core.mask import Mask
 from core.pyramid import CurvePyramid, Pyramid, contained, meets
 from core.runs import PARTS, Chords, Runs
 
@@ -215,11 +216,12 @@ def _subdivide(
     windows = coordinates[:, spans[:, None] + np.arange(len(to_parts))] - shift[:, None, None]
     times, length = spans.astype(np.float64), 1.0
     limits = limits - np.concatenate([shift, -shift])
-    constant = cell_constant(mask)
+    constant: Callable[[Mask, int], float] = chord_constant
     table: Callable[[int], NDArray[np.float64]] = basis.span_table
-    shrinking = np.array([second_difference_norm(mask, level) for level in range(STEP + 1)])
     within = np.zeros(len(spans), dtype=bool)
     for _ in range(_ROUNDS):
+        constants = np.array([constant(mask, level) for level in range(STEP + 1)])
+        shrinking = np.minimum.accumulate(constants / constants[0])
         levels = (bounds[:, None] * shrinking > tolerance).sum(axis=1)
         wanted = levels > STEP
         levels = np.minimum(levels, STEP)
@@ -238,8 +240,8 @@ def _subdivide(
         windows = (windows[:, bent] @ to_parts).reshape(2, -1, len(to_next))
         length /= PARTS
         times = (times[bent, None] + length * np.arange(PARTS)).ravel()
-        to_parts, table = to_next, basis.cell_table
-        margins = constant * bends_of(windows).max(axis=2)
+        to_parts, table, constant = to_next, basis.cell_table, cell_constant
+        margins = cell_constant(mask) * bends_of(windows).max(axis=2)
         bounds = np.hypot(margins[0], margins[1])
         ends = windows @ table(0)
         boxes = boxes_of(ends) - np.concatenate([margins, margins])

@@ -1,12 +1,14 @@
 """Proven bounds: chords, sizes, second differences."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from core.basis import BasicLimitFunction
-from core.chords import chord_constant, second_difference_norm, size_constant
+from core.chords import cell_constant, chord_constant, second_difference_norm, size_constant
 from core.errors import NoLimitError
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
@@ -27,6 +29,46 @@ def test_the_chord_constant_bounds_every_chord(name):
     assert (np.abs(fine - chords).max(axis=(0, 1)) <= chord_constant(mask) * bends).all()
     # A parabola, bent by 1 everywhere, is 1/8 from its chords: no valid constant is smaller.
     assert chord_constant(mask) >= 1 / 8
+
+
+def largest_distance_from_chords(mask, level, start, fine=5):
+    """Sup, by samples, over all data whose second differences are at most 1, by linear algebra.
+
+    The chords are those of the ``2^level`` parts of the unit interval of t from ``start`` on.
+    """
+    n = 60
+    pulses = [LimitCurve(np.stack([p, p], axis=1), mask, False) for p in np.eye(n)]
+    place = int((n // 2 + start) * 2 ** (level + fine))
+    interval = slice(place, place + 2 ** (level + fine) + 1)
+    curves = np.array([pulse.points(level + fine)[interval, 0] for pulse in pulses])
+    inner = curves[:, :-1].reshape(n, 2**level, 2**fine)
+    knots = curves[:, :: 2**fine, None]
+    share = np.arange(2**fine) / 2**fine
+    error = (inner - (1 - share) * knots[:, :-1] - share * knots[:, 1:]).reshape(n, -1)
+    kernel = np.linalg.lstsq(np.diff(np.eye(n), n=2, axis=0).T, error, rcond=None)[0]
+    return np.abs(kernel).sum(axis=0).max()
+
+
+@pytest.mark.parametrize(("constant", "start"), [(chord_constant, 0), (cell_constant, 1 / 2)])
+@pytest.mark.parametrize("name", PRESETS)
+def test_the_constants_of_parts_are_those_of_the_worst_data(name, constant, start):
+    for level in range(5):
+        worst = largest_distance_from_chords(PRESETS[name].mask, level, start)
+        assert worst * (1 - 1e-9) <= constant(PRESETS[name].mask, level) <= 1.03 * worst
+
+
+@given(convergent_members(), st.integers(0, 4), st.booleans())
+def test_no_data_leave_the_chords_of_parts_further_than_the_constants_say(member, level, cell):
+    worst = largest_distance_from_chords(member.mask, level, 1 / 2 if cell else 0, fine=3)
+    constant = cell_constant if cell else chord_constant
+    assert worst * (1 - 1e-9) <= constant(member.mask, level)
+
+
+@pytest.mark.parametrize("constant", [chord_constant, cell_constant])
+@pytest.mark.parametrize("name", PRESETS)
+def test_the_constants_fall_on_where_parts_are_finer_than_all_samples(name, constant):
+    found = [constant(PRESETS[name].mask, level) for level in range(6, 15)]
+    assert all(after < before for before, after in pairwise(found))
 
 
 @pytest.mark.parametrize("level", [1, 2, 4])

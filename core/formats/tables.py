@@ -16,7 +16,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from core.chords import chord_constant, second_difference_norm
+from core.chords import chord_constant
 from core.continuity import smoothness
 from core.document import Curve, Document
 from core.errors import NinepointError
@@ -245,9 +245,9 @@ def _level(limits: list[LimitCurve], tolerance: float) -> tuple[int, float]:
         if limit.spans
     ]
     spans = sum(limit.spans for limit in limits)
-    constant = chord_constant(mask) * max(bends, default=0.0)
+    largest = max(bends, default=0.0)
     for level in range(MAX_LEVEL + 1):
-        bound = constant * second_difference_norm(mask, level)
+        bound = chord_constant(mask, level) * largest
         if bound <= tolerance:
             return level, bound
         if spans << level + 1 > MAX_ROWS:

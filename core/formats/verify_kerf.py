@@ -20,7 +20,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.chords import chord_constant, second_difference_norm
+from core.chords import chord_constant
 from core.formats.readback import MOST_POINTS
 from core.limit import LimitCurve
 
@@ -61,8 +61,7 @@ def dense(limit: LimitCurve, most: int = MOST_POINTS) -> tuple[NDArray[np.float6
     if limit.closed:
         points = np.concatenate([points, points[:1]])
     bends = np.hypot(*np.diff(limit.endless_points, n=2, axis=0).T).max(initial=0.0)
-    mask = limit.mask
-    return points, chord_constant(mask) * second_difference_norm(mask, level) * float(bends)
+    return points, chord_constant(limit.mask, level) * float(bends)
 
 
 def keeps_distance(
