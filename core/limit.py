@@ -9,7 +9,7 @@ the transpose of that, an (n, 2) array whose columns are contiguous.
 
 from __future__ import annotations
 
-from typing import ClassVar, Final
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,15 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 from core.basis import BasicLimitFunction
 from core.ends import extended
 from core.mask import Mask
+from core.windows import product, windows_of
 
 MAX_LEVEL = 20
 """Finest dyadic level that is tabulated: a million points per span."""
-
-_WHOLE: Final = 2**17
-"""Number of values up to which one product is faster than several."""
-
-_CHUNK: Final = 1024
-"""Spans in each product beyond that: their windows, some 300 kB, stay in the cache."""
 
 
 class LimitCurve:
@@ -80,7 +75,7 @@ class LimitCurve:
         self._basis = BasicLimitFunction(mask, self._IS_EXACT)
         self._coordinates = coordinates
         # One view for many products: to make it costs more than a small one.
-        self._windows = _windows(coordinates, mask.end - mask.start + 1, self.spans)
+        self._windows = windows_of(coordinates, mask.end - mask.start + 1, self.spans)
         self._cells: NDArray[np.float64] | None = None
 
     @property
@@ -115,15 +110,15 @@ class LimitCurve:
         if self.spans == 0:
             return polygon.copy()
         if level == 0:
-            curve = _product(self._windows, self._basis.table(0))[:, :, 0]
+            curve = product(self._windows, self._basis.table(0))[:, :, 0]
             if not self.closed:
                 curve = np.concatenate([curve, polygon[-1:].T], axis=1)
         else:
             # Cells read one point less than spans do; the first begins half a span before t = 0.
             if self._cells is None:
                 size = self.mask.end - self.mask.start
-                self._cells = _windows(self._coordinates, size, self.spans + 1)
-            cells = _product(self._cells, self._basis.cell_table(level)[:, :-1]).reshape(2, -1)
+                self._cells = windows_of(self._coordinates, size, self.spans + 1)
+            cells = product(self._cells, self._basis.cell_table(level)[:, :-1]).reshape(2, -1)
             first = 2 ** (level - 1)
             curve = cells[:, first : first + (self.spans << level) + (not self.closed)]
         if not self.closed:
@@ -174,10 +169,34 @@ class LimitCurve:
             value of a span is, up to rounding, the first of the next.
         """
         _check_level(level)
-        points = _product(self._windows[:, :, spans], self._basis.span_table(level, order))
+        points = product(self._windows[:, :, spans], self._basis.span_table(level, order))
         if order == 0 and not self.closed:
             self._pin_ends(points, spans)
         return points.transpose(1, 2, 0)
+
+    def span_starts(
+        self,
+        spans: slice | NDArray[np.intp],
+        level: int,
+        order: int = 0,
+        out: NDArray[np.float64] | None = None,
+    ) -> NDArray[np.float64]:
+        """Values of `span_points` without the ends of the spans, each coordinate apart.
+
+        Parameters
+        ----------
+        spans, level, order
+            As in `span_points`.
+        out
+            Array for the result.
+
+        Returns
+        -------
+        ndarray
+            Shape (2, k, 2^level). The start of an open curve is exact up to rounding only.
+        """
+        _check_level(level)
+        return product(self._windows[:, :, spans], self._basis.table(level, order), out)
 
     def _pin_ends(self, points: NDArray[np.float64], spans: slice | NDArray[np.intp]) -> None:
         """Put the ends of an open curve, among points of spans (2, k, m), where they belong."""
@@ -232,30 +251,3 @@ def columns(
 def _check_level(level: int) -> None:
     if not 0 <= level <= MAX_LEVEL:
         raise ValueError(f"level must lie between 0 and {MAX_LEVEL}, not {level}")
-
-
-def _windows(coordinates: NDArray[np.float64], size: int, spans: int) -> NDArray[np.float64]:
-    """Windows of the spans as a view, shape (size, 2, spans): entry r of each, both coordinates."""
-    row, item = coordinates.strides
-    return np.lib.stride_tricks.as_strided(
-        coordinates,
-        (size, 2, spans),
-        (item, row, item),
-        writeable=False,
-    )
-
-
-def _product(windows: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.float64]:
-    """``out[c, k, m] = sum_r windows[r, c, k] table[r, m]``, in chunks where there is much."""
-    size, _, count = windows.shape
-    # Rows of a copy are runs of the windows: sixty times less to read than to multiply.
-    if count * table.shape[1] <= _WHOLE:
-        return (windows.reshape(size, -1).T @ table).reshape(2, count, -1)
-    out = np.empty((2, count, table.shape[1]))
-    held = np.empty((size, 2, _CHUNK))
-    for begin in range(0, count, _CHUNK):
-        part = windows[:, :, begin : begin + _CHUNK]
-        factor = held[:, :, : part.shape[2]]
-        np.copyto(factor, part)
-        np.matmul(factor.transpose(1, 2, 0), table, out=out[:, begin : begin + _CHUNK])
-    return out

@@ -24,7 +24,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.chords import chord_constant
+from core.bends import ChordBounds
 from core.limit import LimitCurve
 from core.route import Route
 from core.samples import FINEST_LEVEL
@@ -162,20 +162,14 @@ def _levels(
 
     A span that stays too rough is given the finest level, and its bound is what it is.
     """
-    mask = curve.mask
-    bends = np.hypot(*np.diff(curve.endless_points, n=2, axis=0).T)
-    reads = mask.end - mask.start - 1
-    largest = bends[: curve.spans].copy()
-    for shift in range(1, min(reads, len(bends))):
-        np.maximum(largest, bends[shift : shift + curve.spans], out=largest)
+    chords = ChordBounds(curve)
     levels = np.full(curve.spans, FINEST_LEVEL, dtype=np.intp)
     bounds = np.empty(curve.spans)
     waiting = np.ones(curve.spans, dtype=np.bool_)
     for level in range(LEVEL, FINEST_LEVEL + 1):
-        factor = chord_constant(mask, level)
-        reached = waiting & ((factor * largest <= admitted) | (level == FINEST_LEVEL))
-        levels[reached] = level
-        bounds[reached] = factor * largest[reached]
+        at = chords.at(level)
+        reached = waiting & ((at <= admitted) | (level == FINEST_LEVEL))
+        levels[reached], bounds[reached] = level, at[reached]
         waiting &= ~reached
         if not waiting.any():
             break

@@ -2,27 +2,28 @@
 
 Notes
 -----
-Between two neighbouring samples of level L the curve leaves their chord by at most
-``c_L max |D2p|`` (see `core.chords`), the maximum running over the second differences that the
-span reads. Each span takes the coarsest level at which this bound is a given share of the
-tolerance; what `core.flatten`, `core.arcs` and `core.beziers` find at the samples is then a proof
-for the whole curve.
+Between two neighbouring samples the curve leaves their chord by no more than `core.bends` proves.
+Each span takes the coarsest level at which this bound is a given share of the tolerance; what
+`core.flatten`, `core.arcs` and `core.beziers` find at the samples is then a proof for the whole
+curve.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from itertools import pairwise
+from typing import Final, TypeVar
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from core.basis import BasicLimitFunction
-from core.chords import chord_constant
+from core.bends import ChordBounds
 from core.errors import NinepointError
 from core.limit import LimitCurve
+from core.parallel import each
+
+Result = TypeVar("Result")
 
 FINEST_LEVEL: Final = 14
 """Level at which the search gives up: 16,384 samples in a span."""
@@ -37,7 +38,7 @@ come down to the share that was asked for at `FINEST_LEVEL`."""
 BLOCK: Final = 2**16
 """Number of samples held at a time, unless one span has more: they fit the processor's cache."""
 
-_FINER: Final = (2**18, 2**18, *[2**15] * FINEST_LEVEL)
+_PLENTY: Final = (2**18, 2**18, *[2**15] * FINEST_LEVEL)
 """Numbers of samples up to which a curve is sampled finer than the proof needs, by one level, by
 two, and so on: it costs nothing that a hand could feel, and cuts can lie closer to where they are
 best."""
@@ -52,20 +53,31 @@ class Samples:
 
     Attributes
     ----------
+    first_span
+        Index of the span at whose start they begin.
     x, y
         Coordinates, shape (n + 1,), from the start of the first span to the end of the last.
-    bound
-        Proven bound of the distance between the curve and the polygon of the samples, rounding
-        included; parametrically: curve and chord at equal shares of their intervals.
+    bounds
+        Proven bounds of the distance between the curve and the polygon of the samples, one for each
+        span, rounding included; parametrically: curve and chord at equal shares of their intervals.
+    starts
+        Indices of the samples at which the spans start, and of the last sample.
     slope_x, slope_y
         Derivatives with respect to t, shape (n + 1,), if they were asked for, else empty.
     """
 
+    first_span: int
     x: NDArray[np.float64]
     y: NDArray[np.float64]
-    bound: float
+    bounds: NDArray[np.float64]
+    starts: NDArray[np.intp]
     slope_x: NDArray[np.float64]
     slope_y: NDArray[np.float64]
+
+    @property
+    def bound(self) -> float:
+        """Largest of the bounds."""
+        return float(self.bounds.max())
 
 
 class Sampling:
@@ -101,27 +113,38 @@ class Sampling:
         """Largest bound between the samples of any span."""
         return float(self.bounds.max())
 
-    def blocks(self, size: int = BLOCK, slopes: bool = False) -> Iterator[Samples]:
-        """Samples of runs of spans; the last of a block is, up to rounding, the first of the next.
+    def each(
+        self,
+        work: Callable[[Samples], Result],
+        size: int = BLOCK,
+        slopes: bool = False,
+        finer: int = 0,
+    ) -> list[Result]:
+        """What a function makes of the samples, block by block, several of them at a time.
 
         Parameters
         ----------
+        work
+            The function. The last sample of a block is, up to rounding, the first of the next.
         size
             Number of samples of a block, unless one span has more.
         slopes
             Whether derivatives are wanted. The scheme must be C^1.
+        finer
+            Levels by which samples are finer than the proof needs: the bounds are those between
+            samples whose index is a multiple of ``2^finer``. Those between them do not count for
+            the size.
         """
         ends = np.cumsum(2**self.levels)
-        begin = 0
-        while begin < len(ends):
-            before = ends[begin - 1] if begin else 0
+        cuts = [0]
+        while cuts[-1] < len(ends):
+            before = ends[cuts[-1] - 1] if cuts[-1] else 0
             end = int(np.searchsorted(ends, before + size, side="right"))
-            end = max(end, begin + 1)
-            yield self._block(begin, end, slopes)
-            begin = end
+            cuts.append(max(end, cuts[-1] + 1))
+        return each(lambda ends: work(self._block(*ends, slopes, finer)), pairwise(cuts))
 
-    def _block(self, begin: int, end: int, slopes: bool) -> Samples:
-        levels = self.levels[begin:end]
+    def _block(self, begin: int, end: int, slopes: bool, finer: int) -> Samples:
+        levels = self.levels[begin:end] + finer
         if len(levels) << int(levels.max()) <= _UNEVEN * (1 << levels).sum():
             levels = np.full(len(levels), levels.max())
         x, y = self._values(begin, levels, 0)
@@ -136,50 +159,46 @@ class Sampling:
             x[-1], y[-1] = x[0], y[0]
         none = np.zeros(0)
         slope_x, slope_y = self._values(begin, levels, 1) if slopes else (none, none)
-        return Samples(x, y, float(self.bounds[begin:end].max()), slope_x, slope_y)
+        starts = np.concatenate([[0], np.cumsum(1 << levels)])
+        return Samples(begin, x, y, self.bounds[begin:end], starts, slope_x, slope_y)
 
-    def _values(
-        self, begin: int, levels: NDArray[np.intp], order: int
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Points or derivatives of the spans from ``begin`` on, and of the end of the last one."""
-        basis = BasicLimitFunction(self.curve.mask, is_exact=True)
-        first = np.concatenate([[0], np.cumsum(1 << levels)])
-        found = []
-        for column in self.curve.endless_points.T:
-            values = np.empty(first[-1] + 1)
-            for level in np.flatnonzero(np.bincount(levels)):
-                table = basis.table(int(level), order)
-                chosen = np.flatnonzero(levels == level)
-                windows = sliding_window_view(column, len(table))[begin:][chosen]
-                if len(chosen) == len(levels):
-                    np.matmul(windows, table, out=values[:-1].reshape(len(levels), -1))
-                else:
-                    values[first[chosen][:, None] + np.arange(1 << level)] = windows @ table
-            # The end is read with the window of the last span: the first column, one point on.
-            last = begin + len(levels)
-            weights = basis.table(0, order)[:-1, 0]
-            values[-1] = column[last : last + len(weights)] @ weights
-            found.append(values)
-        return found[0], found[1]
+    def _values(self, begin: int, levels: NDArray[np.intp], order: int) -> NDArray[np.float64]:
+        """Points or derivatives of the spans from ``begin`` on, and of the end of the last one.
+
+        Shape (2, n + 1).
+        """
+        curve, end = self.curve, begin + len(levels)
+        values = np.empty((2, int((1 << levels).sum()) + 1))
+        # Values are moved in runs as long as the span that has fewest.
+        fewest = int(levels.min())
+        runs = values[:, :-1].reshape(2, -1, 1 << fewest)
+        count = 1 << (levels - fewest)
+        first = np.cumsum(count) - count
+        for level in np.flatnonzero(np.bincount(levels)):
+            chosen = np.flatnonzero(levels == level)
+            if len(chosen) == len(levels):
+                curve.span_starts(slice(begin, end), int(level), order, runs)
+            else:
+                found = curve.span_starts(begin + chosen, int(level), order)
+                places = first[chosen][:, None] + np.arange(1 << (level - fewest))
+                runs[:, places.ravel()] = found.reshape(2, -1, 1 << fewest)
+        values[:, -1] = curve.span_points(slice(end - 1, end), 0, order)[0, -1]
+        return values
 
 
 def _levels(
     curve: LimitCurve, tolerance: float, share: float
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Level at which each span is sampled, and the proven chord bound at that level."""
-    mask = curve.mask
-    bends = np.hypot(*np.diff(curve.endless_points, n=2, axis=0).T)
-    reads = mask.end - mask.start - 1
-    largest = _running_maximum(bends, reads)[: curve.spans]
+    chords = ChordBounds(curve)
     # A coordinate of a curve point is off by some 8 eps of the largest coordinate, and what is made
     # of two of them, a distance from a chord, by twice as much more.
     rounding = 32 * np.finfo(float).eps * float(np.abs(curve.endless_points).max())
-    factors = [chord_constant(mask, level) for level in range(FINEST_LEVEL + 1)]
     levels = np.full(curve.spans, -1, dtype=np.intp)
-    for level, factor in enumerate(factors):
+    for level in range(FINEST_LEVEL + 1):
         admitted = share if level < FINEST_LEVEL else _LARGEST_BOUND_SHARE
-        reached = (levels < 0) & (factor * largest + rounding <= admitted * tolerance)
-        levels[reached] = level
+        reached = chords.at(level) + rounding <= admitted * tolerance
+        levels[(levels < 0) & reached] = level
         if (levels >= 0).all():
             break
     else:
@@ -187,20 +206,14 @@ def _levels(
             f"This curve is too rough to be followed within {tolerance:g} mm;"
             " choose a larger tolerance, or parameters closer to a preset."
         )
-    bent = largest * max(factors) > rounding
-    for plenty in _FINER:
+    bent = chords.at(0) > rounding
+    for plenty in _PLENTY:
         finer = levels + bent
         if finer.max() > FINEST_LEVEL or (1 << finer).sum() > plenty:
             break
         levels = finer
-    return levels, np.array(factors)[levels] * largest + rounding
-
-
-def _running_maximum(values: NDArray[np.float64], size: int) -> NDArray[np.float64]:
-    """Maximum of each ``size`` consecutive values, by doubling."""
-    reach = 1
-    while reach < size:
-        step = min(reach, size - reach)
-        values = np.maximum(values[:-step], values[step:])
-        reach += step
-    return values
+    bounds = np.empty(curve.spans)
+    for found in np.flatnonzero(np.bincount(levels)):
+        chosen = levels == found
+        bounds[chosen] = chords.at(int(found))[chosen] + rounding
+    return levels, bounds

@@ -166,20 +166,21 @@ def touching(curve: LimitCurve, tolerance: float, kind: type[TouchingFit]) -> Pi
     sampling = Sampling(curve, tolerance, _BOUND_SHARE)
     if sampling.largest_bound > _ROUGHEST_SHARE * tolerance:
         return None
-    joints: list[NDArray[np.complex128]] = []
-    rows: list[NDArray[np.float64]] = []
-    deviation = 0.0
     size = float(np.abs(curve.control_points).max())
-    for samples in sampling.blocks(_BLOCK, slopes=True):
+
+    def cut(
+        samples: Samples,
+    ) -> tuple[NDArray[np.complex128], NDArray[np.float64], float]:
         steps = len(samples.x) - 1
-        longest = -(-steps // FEWEST_CLOSED) if curve.closed and not joints else steps
+        is_first = curve.closed and not samples.first_span
+        longest = -(-steps // FEWEST_CLOSED) if is_first else steps
         fit = kind(samples, tolerance, size)
-        cuts, errors, found = fitted(steps, fit, tolerance - samples.bound, longest)
-        joints.append(fit.place[cuts[:-1]])
-        rows.append(found)
-        deviation = max(deviation, float(errors.max()) + samples.bound)
+        cuts, errors, rows = fitted(steps, fit, tolerance - samples.bound, longest)
+        return fit.place[cuts[:-1]], rows, float(errors.max()) + samples.bound
+
+    joints, rows, deviations = zip(*sampling.each(cut, _BLOCK, slopes=True), strict=True)
     whole = np.concatenate(rows)
-    return Pieces(np.concatenate(joints), whole[:, :-1], bool(whole[:, -1].all()), deviation)
+    return Pieces(np.concatenate(joints), whole[:, :-1], bool(whole[:, -1].all()), max(deviations))
 
 
 def segment_distance(

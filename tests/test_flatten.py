@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.continuity import smoothness
@@ -53,13 +53,14 @@ def test_the_curve_keeps_within_the_stated_deviation(parameters, n, seed, closed
     assert distance_to_polyline(dense, flat.points, closed) <= flat.deviation
 
 
+@settings(max_examples=25)  # each looks among 200,000 exact points
 @given(convergent_members(["translated"]), st.integers(0, 10**6), st.booleans())
 def test_vertices_lie_on_the_curve_and_no_vertex_is_repeated(parameters, seed, closed):
     points = np.random.default_rng(seed).uniform(0, 30, size=(6, 2))
     curve = LimitCurve(points, parameters.mask, closed)
     flat = polyline(curve, 0.1)
-    exact = {tuple(p) for p in np.round(curve.points(12), 9)}
-    assert all(tuple(p) in exact for p in np.round(flat.points, 9))
+    exact, found = (np.round(p, 9) @ [1, 1j] for p in (curve.points(15), flat.points))
+    assert np.isin(found, exact).all()
     assert len(np.unique(flat.points, axis=0)) == len(flat.points)
 
 
@@ -134,7 +135,7 @@ def test_long_curves_are_cut_in_blocks_without_a_gap():
     assert flat.points[0].tolist() == spiral[0].tolist()
     assert flat.points[-1].tolist() == spiral[-1].tolist()
     steps = np.hypot(*np.diff(flat.points, axis=0).T)
-    assert 0 < steps.min() < steps.max() < 12
+    assert 0 < steps.min() < steps.max() < 20
 
 
 def test_points_far_apart_and_many_at_one_place():

@@ -1,0 +1,66 @@
+"""Windows of long arrays, one at each place: their products with tables, and their maxima."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_WHOLE: Final = 2**17
+"""Number of values up to which one product is faster than several."""
+
+_CHUNK: Final = 1024
+"""Windows in each product beyond that: a copy of them, some 300 kB, stays in the cache."""
+
+
+def windows_of(coordinates: NDArray[np.float64], size: int, count: int) -> NDArray[np.float64]:
+    """Windows as a read-only view: ``out[r, c, k] = coordinates[c, k + r]``.
+
+    Parameters
+    ----------
+    coordinates
+        Shape (2, m), m >= count + size - 1: each coordinate in a row of its own.
+    size, count
+        Length of a window; number of windows.
+
+    Returns
+    -------
+    ndarray
+        Shape (size, 2, count).
+    """
+    row, item = coordinates.strides
+    return np.lib.stride_tricks.as_strided(
+        coordinates, (size, 2, count), (item, row, item), writeable=False
+    )
+
+
+def product(
+    windows: NDArray[np.float64],
+    table: NDArray[np.float64],
+    out: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """``out[c, k, m] = sum_r windows[r, c, k] table[r, m]``, in chunks where there is much."""
+    size, _, count = windows.shape
+    # Rows of a copy are runs of the windows: sixty times less to read than to multiply.
+    if out is None:
+        if count * table.shape[1] <= _WHOLE:
+            return (windows.reshape(size, -1).T @ table).reshape(2, count, -1)
+        out = np.empty((2, count, table.shape[1]))
+    held = np.empty((size, 2, min(count, _CHUNK)))
+    for begin in range(0, count, _CHUNK):
+        part = windows[:, :, begin : begin + _CHUNK]
+        factor = held[:, :, : part.shape[2]]
+        np.copyto(factor, part)
+        np.matmul(factor.transpose(1, 2, 0), table, out=out[:, begin : begin + _CHUNK])
+    return out
+
+
+def running_max(values: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+    """Largest of each ``size`` consecutive entries of the last axis, by doubling."""
+    reach = 1
+    while reach < size:
+        step = min(reach, size - reach)
+        values = np.maximum(values[..., :-step], values[..., step:])
+        reach += step
+    return values
