@@ -17,7 +17,7 @@ from app.polyline import SNAPPED_PX, snapped
 from core.document import Curve
 from core.family import Parameters
 from core.live import LiveCurve
-from core.picking import nearest_place, points_within
+from core.picking import nearest_place, nearest_point, points_within
 from core.runs import Runs, counted
 from core.view import view
 
@@ -157,6 +157,15 @@ class Drawn:
         """Indices of the control points in a rectangle; None if there are more than ``most``."""
         low, high = self.camera.to_mm(np.stack([low_px, high_px]))
         return _within(self.present(), np.minimum(low, high), np.maximum(low, high), most)
+
+    def nearest(self, pos_px: NDArray[np.float64], radius_px: float) -> NDArray[np.intp]:
+        """Indices of control points among which the nearest one is, if any is within a radius."""
+        figure = self.present()
+        if self.curve.count <= SHORT or figure.polygon is None:
+            return _all(self.curve.count)
+        place, radius = self.camera.to_mm(pos_px), radius_px * self.camera.pixel_mm
+        found = nearest_point(figure.polygon, place, radius, figure.placed)
+        return _NO_INDICES if found is None else np.array([found[0]])
 
     def on_polygon(self, pos_px: NDArray[np.float64], radius_px: float) -> float | None:
         """Place near the mouse on the polygon: i at point i, linear along what looks straight."""

@@ -31,9 +31,6 @@ from core.document import Curve, Document
 from core.family import Parameters
 from core.runs import Runs
 
-MOST_NEAR: Final = 4000
-"""Number of control points around the mouse beyond which none of them can be meant."""
-
 
 class Overlay(NamedTuple):
     """What the hand adds to the picture.
@@ -158,26 +155,13 @@ class Scene:
         self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1
     ) -> PointHit | None:
         """Control point near the mouse, as `app.handles.nearest_point`, at any number of points."""
-        # Among many points the nearest is mostly very near, and the others are not looked at.
-        for radius in (radius_px / 8, radius_px):
-            hit = self._nearest_point(pos_px, radius, preferred)
-            if hit is not None:
-                return hit
-        return None
-
-    def _nearest_point(
-        self, pos_px: NDArray[np.float64], radius_px: float, preferred: int
-    ) -> PointHit | None:
         about, curves, preferred = self._near(pos_px, radius_px, preferred)
-        near = [
-            drawn.within(pos_px - radius_px, pos_px + radius_px, MOST_NEAR) for drawn in curves
-        ]
-        indices = [np.zeros(0, dtype=np.intp) if found is None else found for found in near]
-        places = [drawn.places_px(found) for drawn, found in zip(curves, indices, strict=True)]
+        near = [drawn.nearest(pos_px, radius_px) for drawn in curves]
+        places = [drawn.places_px(found) for drawn, found in zip(curves, near, strict=True)]
         hit = nearest_point(places, pos_px, radius_px, preferred)
         if hit is None:
             return None
-        return hit._replace(curve=about[hit.curve], point=int(indices[hit.curve][hit.point]))
+        return hit._replace(curve=about[hit.curve], point=int(near[hit.curve][hit.point]))
 
     def nearest_edge(
         self, pos_px: NDArray[np.float64], radius_px: float, preferred: int = -1

@@ -11,7 +11,7 @@ from core.chords import chord_constant
 from core.extreme import largest, same
 from core.limit import LimitCurve
 from core.mask import Mask
-from core.pyramid import running_max
+from core.windows import running_max
 
 FINEST: Final = 6
 """Dyadic level beyond which a span has to be cut to what is seen of it."""

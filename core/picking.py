@@ -9,11 +9,14 @@ from numpy.typing import NDArray
 
 from core.affine import IDENTITY, Affine
 from core.blocks import FAN
-from core.pyramid import PolygonPyramid, Pyramid, contained, meets
+from core.pyramid import CurvePyramid, PolygonPyramid, Pyramid, contained, meets
 from core.view import view
 
 _FINENESS: Final = 32
 """How much finer than the radius the curve is followed."""
+
+_ROUNDING: Final = 1 + 1e-12
+"""Factor on squares of distances that covers their rounding."""
 
 
 def points_within(
@@ -82,13 +85,19 @@ def nearest_point(
     placed
         As in `points_within`.
     """
-    near = points_within(polygon, place - radius, place + radius, placed=placed)
-    if near is None or not len(near):
+    search = _Search(place, radius, placed, 0.0)
+    places = _parts(search.blocks(polygon)).ravel()
+    places = places[places < polygon.spans]
+    if not len(places):
         return None
-    distances = np.hypot(*(placed(polygon.points[near]) - place).T)[::-1]
-    index = int(distances.argmin())
-    distance = float(distances[index])
-    return (int(near[len(near) - 1 - index]), distance) if distance <= radius else None
+    # The ends of the last block belong to it; the last point of an open polygon has no other.
+    if not polygon.closed and places[-1] == polygon.spans - 1:
+        places = np.append(places, polygon.spans)
+    x, y = search.offsets(polygon.points[places].T)
+    squares = (x * x + y * y)[::-1]
+    index = int(squares.argmin())
+    distance = float(np.sqrt(squares[index]))
+    return (int(places[len(places) - 1 - index]), distance) if distance <= radius else None
 
 
 def nearest_place(
@@ -106,24 +115,138 @@ def nearest_place(
     Returns
     -------
     t, distance
-        The distance is that from chords that stay within 1/32 of the radius of the curve; t is
-        linear along a chord.
+        No other place is nearer by more than 1/32 of the radius. The distance is that from chords,
+        t is linear along a chord. If there is no place within the radius, None.
     """
+    tolerance = radius / _FINENESS / 2
+    search = _Search(place, radius, placed, tolerance)
+    blocks = search.blocks(pyramid)
+    if not len(blocks):
+        return None
+    ends, margins = pyramid.spans_of(blocks)
+    spans = _parts(blocks)
+    starts, stops = (ends[:, part].transpose(0, 2, 1) for part in (slice(None, -1), slice(1, None)))
+    margins = margins.transpose(0, 2, 1)
+    boxes = np.empty((4, *spans.shape))
+    np.subtract(np.minimum(starts, stops), margins, out=boxes[:2])
+    np.subtract(-np.maximum(starts, stops), margins, out=boxes[2:])
+    boxes[:, spans >= pyramid.spans] = np.inf
+    kept = search.near(boxes.reshape(4, -1)).reshape(spans.shape)
+    if not kept.any():
+        return None
+    spans = spans[kept]
+    points = np.stack([starts[:, kept], stops[:, kept]], axis=2)
+    if isinstance(pyramid, CurvePyramid):
+        level = pyramid.level(np.hypot(*margins[:, kept]), tolerance / placed.stretch)
+        if level is None:
+            return _nearest_seen(pyramid, place, radius, placed)
+        if level:
+            points = pyramid.curve.span_points(spans, level).transpose(2, 0, 1)
+    x, y = search.offsets(points)
+    place_at, share, distance = _on_chords(x, y)
+    span, part = divmod(place_at, x.shape[1] - 1)
+    t = float(spans[span] + (part + share) / (x.shape[1] - 1))
+    return (t, distance) if distance <= radius else None
+
+
+def _nearest_seen(
+    pyramid: Pyramid, place: NDArray[np.float64], radius: float, placed: Affine
+) -> tuple[float, float] | None:
+    """As `nearest_place`, of spans that reach so far beyond the square that they have to be cut."""
     tolerance = radius / _FINENESS
     seen = view(pyramid, place - radius, place + radius, tolerance, place, placed=placed)
     if not len(seen.vertices):
         return None
     x, y = seen.vertices.T
-    way_x, way_y = np.diff(x), np.diff(y)
-    length = way_x * way_x + way_y * way_y
-    # The place is the origin. A step from run to run is no chord.
-    share = -(x[:-1] * way_x + y[:-1] * way_y) / np.where(length > 0, length, 1.0)
-    share = np.clip(share, 0.0, 1.0)
-    distances = np.hypot(x[:-1] + share * way_x, y[:-1] + share * way_y)
-    distances[seen.starts[1:-1] - 1] = np.inf
-    index = int(distances.argmin())
-    distance = float(distances[index])
+    index, share, distance = _on_chords(x[None], y[None], seen.starts[1:-1] - 1)
     if distance > radius:
         return None
     t, after = seen.parameters[index : index + 2]
-    return float(t + share[index] * (after - t)), distance
+    return float(t + share * (after - t)), distance
+
+
+def _on_chords(
+    x: NDArray[np.float64], y: NDArray[np.float64], gaps: NDArray[np.intp] | None = None
+) -> tuple[int, float, float]:
+    """Chord of polylines (k, m) that is nearest to the origin, share of it, and distance.
+
+    A chord is told by its index in all k (m - 1) of them; those in ``gaps`` do not count.
+    """
+    from_x, from_y = x[:, :-1], y[:, :-1]
+    way_x, way_y = x[:, 1:] - from_x, y[:, 1:] - from_y
+    length = way_x * way_x + way_y * way_y
+    share = -(from_x * way_x + from_y * way_y) / np.where(length > 0, length, 1.0)
+    share = np.minimum(np.maximum(share, 0.0), 1.0)
+    off_x, off_y = from_x + share * way_x, from_y + share * way_y
+    squares = (off_x * off_x + off_y * off_y).ravel()
+    if gaps is not None:
+        squares[gaps] = np.inf
+    index = int(squares.argmin())
+    return index, float(share.ravel()[index]), float(np.sqrt(squares[index]))
+
+
+def _parts(nodes: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Children of nodes, or spans of blocks, whether they exist or not; shape (m, 8)."""
+    return FAN * nodes[:, None] + np.arange(FAN)
+
+
+class _Search:
+    """What lies near a place, found by boxes: the nearest thing is in one that is near.
+
+    Whatever is in a box is no nearer than the box, and no farther than its farthest corner. So
+    boxes are left out that are farther than the radius, or than the farthest corner of another.
+
+    Parameters
+    ----------
+    place, radius, placed
+        As in `nearest_place`.
+    spare
+        By how much a thing may be farther than the nearest one.
+    """
+
+    def __init__(
+        self, place: NDArray[np.float64], radius: float, placed: Affine, spare: float
+    ) -> None:
+        back = placed.inverse
+        self._matrix = None if placed.is_shift else placed.matrix
+        self._place = back(np.asarray(place, dtype=np.float64))[:, None]
+        self._stretch, self._back = placed.stretch, back.stretch
+        self._farthest, self._spare = radius, spare
+
+    def blocks(self, pyramid: Pyramid) -> NDArray[np.intp]:
+        """Nodes of level 0 that may hold the nearest thing, rising."""
+        level = pyramid.depth - 1
+        nodes = pyramid.nodes(level)
+        nodes = nodes[self.near(pyramid.boxes(level, nodes))]
+        while level and len(nodes):
+            level -= 1
+            nodes = _parts(nodes).ravel()
+            nodes = nodes[nodes < pyramid.blocks.boxes[level].shape[1]]
+            nodes = nodes[self.near(pyramid.boxes(level, nodes))]
+        return nodes
+
+    def near(self, boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Which boxes (4, m), m >= 1, may hold it; empty ones are infinite."""
+        before, after = boxes[:2] - self._place, boxes[2:] + self._place
+        near, far = np.maximum(before, after), np.minimum(before, after)
+        near = np.maximum(near, 0.0, out=near)
+        near *= near
+        far *= far
+        squares = far[0] + far[1]
+        best = int(squares.argmin())
+        reach = float(self._stretch * np.sqrt(squares[best]))
+        is_nearer = reach < self._farthest
+        self._farthest = min(self._farthest, reach)
+        # Of boxes as near as can be told, one is enough, unless all that is equal is sought.
+        limit = self._back * (self._farthest - (self._spare if is_nearer else 0.0))
+        found: NDArray[np.bool_] = near[0] + near[1] <= max(limit, 0.0) ** 2 * _ROUNDING
+        if is_nearer:
+            found[best] = True
+        return found
+
+    def offsets(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Ways from the place to points (2, ...), where these lie."""
+        ways = (points.reshape(2, -1) - self._place).reshape(points.shape)
+        if self._matrix is None:
+            return ways
+        return np.asarray(np.tensordot(self._matrix, ways, axes=1))

@@ -13,13 +13,18 @@ between its own. All bounds hold up to the rounding of the points.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.basis import BasicLimitFunction
 from core.blocks import FAN, Blocks, bends_of
-from core.chords import bounds
+from core.chords import bounds, chord_constant
+from core.windows import running_max
+
+_FINEST: Final = 6
+"""Dyadic level beyond which a span has to be cut to what is looked at of it."""
 
 
 class Pyramid(ABC):
@@ -158,6 +163,31 @@ class CurvePyramid(Pyramid):
         return ends, margins
 
 
+    def level(self, margins: NDArray[np.float64], tolerance: float) -> int | None:
+        """Dyadic level at which the chords of some spans are straight enough.
+
+        Parameters
+        ----------
+        margins
+            How far the spans leave their own chords, as told by `spans_of`, at least one.
+        tolerance
+            Largest admitted distance between curve and chords.
+
+        Returns
+        -------
+        int or None
+            Always `finest` where no convergence is proven. None where a span has to be cut to what
+            is looked at of it.
+        """
+        if self.finest is not None:
+            return self.finest
+        bend = float(margins.max()) / self._chord
+        for level in range(_FINEST + 1):
+            if bend * chord_constant(self.curve.mask, level) <= tolerance:
+                return level
+        return None
+
+
 class PolygonPyramid(Pyramid):
     """The levels of detail of the control polygon itself; its spans are the edges."""
 
@@ -190,16 +220,6 @@ class PolygonPyramid(Pyramid):
         """See `Pyramid.spans_of`."""
         places = np.minimum(FAN * blocks + np.arange(FAN + 1)[:, None], self.spans)
         return self.places(places), np.zeros((2, FAN, len(blocks)))
-
-
-def running_max(values: NDArray[np.float64], size: int) -> NDArray[np.float64]:
-    """Largest of each ``size`` consecutive entries of the last axis, by doubling."""
-    reach = 1
-    while reach < size:
-        step = min(reach, size - reach)
-        values = np.maximum(values[..., :-step], values[..., step:])
-        reach += step
-    return values
 
 
 def meets(boxes: NDArray[np.float64], limits: NDArray[np.float64]) -> NDArray[np.bool_]:
