@@ -32,7 +32,7 @@ from core.errors import NinepointError
 from core.limit import LimitCurve
 from core.samples import Samples, Sampling
 
-_BOUND_SHARE: Final = 1 / 4
+_BOUND_SHARE: Final = 1 / 3
 """Share of the tolerance that the bound between measured samples takes at most: a chord has two of
 their steps then, mostly more."""
 
