@@ -39,7 +39,7 @@ def test_words_keep_numbers_and_units_together():
     words = Survey.of(letter_f(), named("svg")).words
     size = "48.39\u00a0\u00d7\u00a050.00 mm"
     assert words.startswith(f"{size}, 2 contours, 1 of them closed, 15 cubics")
-    assert words.endswith("deviation\u00a0\u2264\u00a00.0099\u00a0mm")
+    assert words.endswith("deviation\u00a0\u2264\u00a00.01\u00a0mm")
     table = msgspec.structs.replace(named("points"), entity="control points")
     size = "40.00\u00a0\u00d7\u00a030.00 mm"
     assert Survey.of(SQUARE, table).words == f"{size}, closed, 4 control points"

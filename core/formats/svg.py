@@ -130,11 +130,13 @@ def path_counts(contours: Contours) -> list[int]:
         if isinstance(contour.shape, Beziers):
             # Control points lie beyond the page, though by less than its size; with a sign then.
             digits = 3 + len(str(int(2 * size.max()))) + contours.places
-            numbers = 6 * contour.pieces + 2
+            piece = 6 * digits + 1
         else:
             digits = 2 + len(str(int(size.max()))) + contours.places
-            numbers = 2 * contour.pieces + 2
-        counts.append(math.ceil(numbers * digits / MAX_PATH_BYTES))
+            piece = 2 * digits + 1
+        start_and_end = 2 * digits + 1
+        most = max((MAX_PATH_BYTES - start_and_end) // piece, 1)
+        counts.append(math.ceil(contour.pieces / most))
     return counts
 
 
