@@ -26,10 +26,16 @@ from numpy.typing import NDArray
 
 from core.flatten import polyline
 from core.limit import LimitCurve
-from core.touching import TouchingFit, dot, touching
+from core.touching import TouchingFit, touching
 
 _ROUNDS: Final = 5
 """Rounds of least squares; the error has settled to a percent by then."""
+
+_FITTED: Final = 128
+"""Number of samples that take part in the least squares, at most."""
+
+_STEPS: Final = 3
+"""Steps to the feet of all samples, from places at equal shares of the length."""
 
 _ALONG: Final = 0.01
 """Weight of distances along the curve, which do not count, but keep straight pieces determined."""
@@ -136,14 +142,22 @@ class _Cubics(TouchingFit):
         exists = total > 0
         u = np.divide(lengths, total[:, None], out=np.zeros_like(lengths), where=exists[:, None])
         first, second = total / 3, total / 3
+        # So many samples determine two lengths as well as all of them do.
+        some = slice(None, None, seen.shape[1] // _FITTED + 1)
+        fitted, places = seen[:, some], u[:, some]
         for _ in range(_ROUNDS):
             inner = first * before, way - second * after
-            u = _feet(u, way, inner, seen)
-            first, second = _handles(u, way, (before, after), inner, seen, total / 3)
+            places, forward = _feet(places, way, inner, fitted)
+            first, second = _handles(places, way, tangents, forward, fitted, total / 3)
         exists &= (first > 0) & (second > 0)
         exists &= np.maximum(first, second) < _LONGEST_HANDLE * total
         inner = first * before, way - second * after
-        u = _feet(u, way, inner, seen)
+        if fitted.shape == seen.shape:
+            u, _ = _feet(places, way, inner, seen)
+        else:
+            for _ in range(_STEPS):
+                u, _ = _feet(u, way, inner, seen)
+        u[:, 0], u[:, -1] = 0, 1
         errors = np.abs(seen - _values(u, way, inner)).max(axis=1)
         if whole:
             bend = 6 * np.maximum(
@@ -182,35 +196,36 @@ def _feet(
     way: NDArray[np.complex128],
     inner: tuple[NDArray[np.complex128], NDArray[np.complex128]],
     seen: NDArray[np.complex128],
-) -> NDArray[np.float64]:
-    """Places nearer to the feet of what is seen, by a step of Newton's; the ends stay."""
+) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
+    """Places nearer to the feet of what is seen, by a step of Newton's, and ``forward``.
+
+    This is the conjugate of the direction of the cubics where the step began: a factor of it turns
+    the way along them into the real axis.
+    """
     slopes = _slopes(u, way, inner)
-    square = slopes.real**2 + slopes.imag**2
-    along = dot(seen - _values(u, way, inner), slopes)
-    moved = u + np.divide(along, square, out=np.zeros_like(along), where=square > 0)
-    np.clip(moved, 0, 1, out=moved)
-    moved[:, 0], moved[:, -1] = 0, 1
-    return moved
+    size = np.abs(slopes)
+    forward = np.divide(slopes.conj(), size, out=np.ones_like(slopes), where=size > 0)
+    along = ((seen - _values(u, way, inner)) * forward).real
+    moved = u + np.divide(along, size, out=np.zeros_like(along), where=size > 0)
+    moved = np.minimum(np.maximum(moved, 0.0), 1.0)
+    return moved, forward
 
 
 def _handles(
     u: NDArray[np.float64],
     way: NDArray[np.complex128],
     tangents: tuple[NDArray[np.complex128], NDArray[np.complex128]],
-    inner: tuple[NDArray[np.complex128], NDArray[np.complex128]],
+    forward: NDArray[np.complex128],
     seen: NDArray[np.complex128],
     prior: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Lengths of the handles by least squares, shape (k,) each."""
     v = 1 - u
-    rest = seen - (u * u * (3 - 2 * u)) * way[:, None]
-    slopes = _slopes(u, way, inner)
-    size = np.abs(slopes)
-    forward = np.conj(np.divide(slopes, size, out=np.ones_like(slopes), where=size > 0))
     # In this frame the real part is along the curve.
-    one = 3 * u * v * v * (tangents[0][:, None] * forward)
-    two = -3 * u * u * v * (tangents[1][:, None] * forward)
-    rest = rest * forward
+    rest = (seen - (u * u * (3 - 2 * u)) * way[:, None]) * forward
+    weight = 3 * u * v
+    one = (weight * v) * (tangents[0][:, None] * forward)
+    two = (-weight * u) * (tangents[1][:, None] * forward)
 
     def product(a: NDArray[np.complex128], b: NDArray[np.complex128]) -> NDArray[np.float64]:
         return np.asarray((a.imag * b.imag + _ALONG * a.real * b.real).sum(axis=1))

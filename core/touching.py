@@ -18,7 +18,7 @@ from core.limit import LimitCurve
 from core.pieces import fitted
 from core.samples import Samples, Sampling
 
-_BOUND_SHARE: Final = 1 / 32
+_BOUND_SHARE: Final = 1 / 64
 """Share of the tolerance that the bound between the samples should take."""
 
 _ROUGHEST_SHARE: Final = 1 / 4
