@@ -1,5 +1,6 @@
 import re
 import xml.etree.ElementTree as ET
+from functools import cache
 
 import numpy as np
 import pytest
@@ -20,6 +21,12 @@ PATH = re.compile(rb"<path .*?</path>", re.DOTALL)
 
 def encoded(document, name="svg"):
     return svg.encode(Contours.of(document, named(name).within(0.1)), "title")
+
+
+@cache
+def letter():
+    """The text of a drawing that many tests damage."""
+    return encoded(letter_f())
 
 
 @settings(max_examples=30)
@@ -46,7 +53,7 @@ def test_curves_that_are_not_drawn_come_back_too():
 
 
 def test_the_root_of_a_parsed_file_does_as_well():
-    assert embedded(ET.fromstring(encoded(letter_f()))) is not None
+    assert embedded(ET.fromstring(letter())) is not None
 
 
 def test_a_document_longer_than_readers_take_is_in_several_texts(monkeypatch):
@@ -73,7 +80,7 @@ def test_a_document_longer_than_readers_take_is_in_several_texts(monkeypatch):
     ],
 )
 def test_what_changes_no_geometry_does_not_matter(change):
-    data = encoded(letter_f())
+    data = letter()
     assert change(data) != data
     assert embedded(change(data)) is not None
 
@@ -119,13 +126,13 @@ def with_one_instead_of_another(data):
     ],
 )
 def test_a_file_that_shows_something_else_gives_no_document(change):
-    data = encoded(letter_f())
+    data = letter()
     assert change(data) != data
     assert embedded(change(data)) is None
 
 
 def test_depth_is_no_danger():
-    data = encoded(letter_f())
+    data = letter()
     deep = data.replace(b"</svg>", b"<g>" * 20_000 + b"</g>" * 20_000 + b"</svg>")
     assert embedded(deep) is not None
 
@@ -133,7 +140,7 @@ def test_depth_is_no_danger():
 @settings(max_examples=60)
 @given(st.data())
 def test_no_flipped_byte_of_a_path_or_of_the_document_passes(data):
-    whole = encoded(letter_f())
+    whole = letter()
     place = data.draw(st.integers(0, len(whole) - 1))
     value = data.draw(st.integers(0, 255))
     flipped = whole[:place] + bytes([value]) + whole[place + 1 :]

@@ -35,8 +35,8 @@ def test_an_open_subdivision_refines_the_polygon_with_its_odd_reflections(
     if not parameters.mask.is_symmetric:
         parameters = PRESETS["Tight"]
     points = polygon(seed, n)
-    wide = np.pad(points, ((30, 30), (0, 0)), mode="reflect", reflect_type="odd")
-    data = {j - 30: Fraction(int(x)) for j, x in enumerate(wide[:, 0])}
+    wide = np.pad(points, ((20, 20), (0, 0)), mode="reflect", reflect_type="odd")
+    data = {j - 20: Fraction(int(x)) for j, x in enumerate(wide[:, 0])}
     for _ in range(levels):
         data = refined(data, parameters.mask)
     inside = [
@@ -63,8 +63,8 @@ def test_eliminating_the_phantom_points_gives_the_same_end_rules_at_every_level(
     """Theory, section 7: refined polygons of symmetric members are odd about their ends again."""
     mask = PRESETS["Calm"].mask
     points = polygon(seed, n)
-    wide = np.pad(points, ((30, 30), (0, 0)), mode="reflect", reflect_type="odd")
-    data = {j - 30: Fraction(int(x)) for j, x in enumerate(wide[:, 0])}
+    wide = np.pad(points, ((20, 20), (0, 0)), mode="reflect", reflect_type="odd")
+    data = {j - 20: Fraction(int(x)) for j, x in enumerate(wide[:, 0])}
     new = refined(data, mask)
     for m in range(1, 12):
         # P_m lies at (2m - 1)/4; its mirror image about t = 0 is P_{1-m}.
