@@ -47,18 +47,19 @@ class ChordBounds:
         steps = polygon[:, 1:] - polygon[:, :-1]
         self._differences = steps[:, 1:] - steps[:, :-1]
 
-    def at(self, level: int) -> NDArray[np.float64]:
-        """Bounds for the chords of the ``2^level`` equal parts of each span, shape (spans,).
+    def at(self, level: int, spans: slice = slice(None)) -> NDArray[np.float64]:
+        """Bounds for the chords of the ``2^level`` equal parts of each of some spans.
 
         Raises
         ------
         NoLimitError
             If the scheme is not seen to converge (see `core.chords`).
         """
-        found = chord_constant(self._mask, level) * self._largest
+        found = chord_constant(self._mask, level) * self._largest[spans]
         if level < _REFINED:
             return found
-        return np.minimum(found, cell_constant(self._mask, level - _REFINED) * self._refined)
+        refined = cell_constant(self._mask, level - _REFINED) * self._refined[spans]
+        return np.minimum(found, refined)
 
     @cached_property
     def _largest(self) -> NDArray[np.float64]:

@@ -101,7 +101,15 @@ class Sampling:
 
     def __init__(self, curve: LimitCurve, tolerance: float, share: float) -> None:
         self.curve = curve
-        self.levels, self.bounds = _levels(curve, tolerance, share)
+        self._chords = ChordBounds(curve)
+        # A coordinate of a curve point is off by some 8 eps of the largest coordinate, and what is
+        # made of two of them, a distance from a chord, by twice as much more.
+        self._rounding = 32 * np.finfo(float).eps * float(np.abs(curve.endless_points).max())
+        self.levels = self._chosen_levels(tolerance, share)
+        self.bounds = np.empty(curve.spans)
+        for level in np.flatnonzero(np.bincount(self.levels)):
+            chosen = self.levels == level
+            self.bounds[chosen] = self._bounds_at(int(level))[chosen]
         if (2**self.levels).sum() > MAX_SAMPLES:
             raise NinepointError(
                 f"{curve.spans:,} spans within {tolerance:g} mm need too many vertices;"
@@ -144,9 +152,12 @@ class Sampling:
         return each(lambda ends: work(self._block(*ends, slopes, finer)), pairwise(cuts))
 
     def _block(self, begin: int, end: int, slopes: bool, finer: int) -> Samples:
-        levels = self.levels[begin:end] + finer
-        if len(levels) << int(levels.max()) <= _UNEVEN * (1 << levels).sum():
-            levels = np.full(len(levels), levels.max())
+        levels, bounds = self.levels[begin:end], self.bounds[begin:end]
+        finest = int(levels.max())
+        if len(levels) << finest <= _UNEVEN * (1 << levels).sum() and (levels < finest).any():
+            levels = np.full(len(levels), finest)
+            bounds = self._bounds_at(finest, slice(begin, end))
+        levels = levels + finer
         x, y = self._values(begin, levels, 0)
         curve = self.curve
         if not curve.closed:
@@ -160,7 +171,7 @@ class Sampling:
         none = np.zeros(0)
         slope_x, slope_y = self._values(begin, levels, 1) if slopes else (none, none)
         starts = np.concatenate([[0], np.cumsum(1 << levels)])
-        return Samples(begin, x, y, self.bounds[begin:end], starts, slope_x, slope_y)
+        return Samples(begin, x, y, bounds, starts, slope_x, slope_y)
 
     def _values(self, begin: int, levels: NDArray[np.intp], order: int) -> NDArray[np.float64]:
         """Points or derivatives of the spans from ``begin`` on, and of the end of the last one.
@@ -185,35 +196,27 @@ class Sampling:
         values[:, -1] = curve.span_points(slice(end - 1, end), 0, order)[0, -1]
         return values
 
+    def _bounds_at(self, level: int, spans: slice = slice(None)) -> NDArray[np.float64]:
+        """Proven bounds between samples of a level, rounding included."""
+        return self._chords.at(level, spans) + self._rounding
 
-def _levels(
-    curve: LimitCurve, tolerance: float, share: float
-) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Level at which each span is sampled, and the proven chord bound at that level."""
-    chords = ChordBounds(curve)
-    # A coordinate of a curve point is off by some 8 eps of the largest coordinate, and what is made
-    # of two of them, a distance from a chord, by twice as much more.
-    rounding = 32 * np.finfo(float).eps * float(np.abs(curve.endless_points).max())
-    levels = np.full(curve.spans, -1, dtype=np.intp)
-    for level in range(FINEST_LEVEL + 1):
-        admitted = share if level < FINEST_LEVEL else _LARGEST_BOUND_SHARE
-        reached = chords.at(level) + rounding <= admitted * tolerance
-        levels[(levels < 0) & reached] = level
-        if (levels >= 0).all():
-            break
-    else:
-        raise NinepointError(
-            f"This curve is too rough to be followed within {tolerance:g} mm;"
-            " choose a larger tolerance, or parameters closer to a preset."
-        )
-    bent = chords.at(0) > rounding
-    for plenty in _PLENTY:
-        finer = levels + bent
-        if finer.max() > FINEST_LEVEL or (1 << finer).sum() > plenty:
-            break
-        levels = finer
-    bounds = np.empty(curve.spans)
-    for found in np.flatnonzero(np.bincount(levels)):
-        chosen = levels == found
-        bounds[chosen] = chords.at(int(found))[chosen] + rounding
-    return levels, bounds
+    def _chosen_levels(self, tolerance: float, share: float) -> NDArray[np.intp]:
+        """Level at which each span is sampled."""
+        levels = np.full(self.curve.spans, -1, dtype=np.intp)
+        for level in range(FINEST_LEVEL + 1):
+            admitted = share if level < FINEST_LEVEL else _LARGEST_BOUND_SHARE
+            levels[(levels < 0) & (self._bounds_at(level) <= admitted * tolerance)] = level
+            if (levels >= 0).all():
+                break
+        else:
+            raise NinepointError(
+                f"This curve is too rough to be followed within {tolerance:g} mm;"
+                " choose a larger tolerance, or parameters closer to a preset."
+            )
+        bent = self._chords.at(0) > self._rounding
+        for plenty in _PLENTY:
+            finer = levels + bent
+            if finer.max() > FINEST_LEVEL or (1 << finer).sum() > plenty:
+                break
+            levels = finer
+        return levels
