@@ -62,7 +62,7 @@ class SpanVertices:
         bends = np.hypot(*(steps[1:] - steps[:-1]).T)
         bounds = running_max(bends, reads - 2)
         # The level of a span is the number of those whose chords would be too far off.
-        levels = self._largest(mask, tolerance).searchsorted(bounds)
+        levels = self._admitted(mask, tolerance, largest(bounds)).searchsorted(bounds)
         finest = largest(levels)
         if finest > FINEST:
             return None
@@ -71,13 +71,21 @@ class SpanVertices:
         points = limit.span_points(slice(spans.start, spans.stop), finest)
         return self._t, points.transpose(2, 0, 1).reshape(2, -1).take(self._chosen, axis=1).T
 
-    def _largest(self, mask: Mask, tolerance: float) -> NDArray[np.float64]:
-        """Largest second differences that the levels from 0 to `FINEST` admit, rising."""
+    def _admitted(self, mask: Mask, tolerance: float, bend: float) -> NDArray[np.float64]:
+        """Largest second differences that the levels admit, rising: from 0 to that for ``bend``.
+
+        If no level up to `FINEST` is fine enough, all of them.
+        """
         if self._limits is None or self._limits[:2] != (mask, tolerance):
-            bounds = np.array([chord_constant(mask, level) for level in range(FINEST + 1)])
-            # A straight line admits any of them, at a constant of 0 too.
-            with np.errstate(divide="ignore"):
-                self._limits = mask, tolerance, np.maximum.accumulate(tolerance / bounds)
+            self._limits = mask, tolerance, np.zeros(0)
+        admitted = self._limits[2].tolist()
+        count = len(admitted)
+        # While a slider moves each scheme is seen once: no more constants are found than needed.
+        while len(admitted) <= FINEST and not (admitted and admitted[-1] >= bend):
+            own = tolerance / chord_constant(mask, len(admitted))
+            admitted.append(max([own, *admitted[-1:]]))
+        if len(admitted) > count:
+            self._limits = mask, tolerance, np.array(admitted)
         return self._limits[2]
 
     def _lay_out(self, levels: NDArray[np.intp], finest: int) -> None:

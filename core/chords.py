@@ -22,7 +22,6 @@ their rounding, some 1e-13 relative, is covered by the factor `ROUNDING`.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import lru_cache
 from typing import Final, NamedTuple
 
@@ -44,8 +43,9 @@ _FINER: Final = 4
 """Levels by which samples are finer than the parts whose chords are asked about, at least: what
 may lie between them adds a percent."""
 
-_FINEST_SAMPLES: Final = 12
-"""Level of the finest samples. Beyond, bounds of parts are valid, but less sharp."""
+_HELD: Final = (6, 8, 10, 12)
+"""Levels of the samples that serve all parts that are coarse enough. Bounds of finer parts than
+these allow are valid, but less sharp."""
 
 _SIZE_LEVEL: Final = 8
 """Level of the samples of sizes: what the chord bound leaves between them is below 1e-5."""
@@ -98,17 +98,16 @@ def chord_constant(mask: Mask, level: int = 0) -> float:
     NoLimitError
         If refinement is not seen to shrink second differences, so that no bound is proven.
     """
-    return _constant(mask, level, BasicLimitFunction(mask).span_table)
+    return _constant(mask, level, in_cell=False)
 
 
 @lru_cache(maxsize=MEMORY)
 def cell_constant(mask: Mask, level: int = 0) -> float:
     """The same on a cell ``[i - 1/2, i + 1/2]`` of the dual grid; see `core.cells`."""
-    table = BasicLimitFunction(mask).cell_table
     if level:
-        return _constant(mask, level, table)
+        return _constant(mask, level, in_cell=True)
     samples = _sample_level(mask)
-    largest = _largest(_off_chords(table(samples)))
+    largest = _largest(_off_chords(_kernel(BasicLimitFunction(mask).cell_table(samples))))
     return largest / (1 - second_difference_norm(mask, samples)) * ROUNDING
 
 
@@ -159,13 +158,13 @@ def bounds(mask: Mask) -> Bounds:
     basis = BasicLimitFunction(mask)
     knots = basis.table(0)[:-1, 0]
     apart = knots - np.eye(len(knots))[mask.end - 1]  # row r weighs p_{i + r + 1 - end}
-    knot = _largest(apart[:, None]) * ROUNDING
+    knot = _largest(_kernel(apart[:, None])) * ROUNDING
     try:
         chord = chord_constant(mask)
     except NoLimitError:
         finest = COARSE_LEVEL if grows(mask) else _FINE
         samples = basis.span_table(finest)
-        chord = _largest(_off_chords(samples)) * ROUNDING
+        chord = _largest(_off_chords(_kernel(samples))) * ROUNDING
         return Bounds(chord, _largest(_off_polygon(samples, mask)) * ROUNDING, knot, finest)
     level = _SAMPLE_LEVELS[0]
     rest = cell_constant(mask) * second_difference_norm(mask, level)
@@ -181,7 +180,7 @@ def grows(mask: Mask) -> bool:
     """
     table = BasicLimitFunction(mask).span_table
     before, after = (
-        _largest(_off_chords(table(level + 1), level)) for level in (_FINE - 2, _FINE - 1)
+        _largest(_off_chords(_kernel(table(level + 1)), level)) for level in (_FINE - 2, _FINE - 1)
     )
     return after >= before > 0
 
@@ -197,23 +196,45 @@ def _sample_level(mask: Mask) -> int:
     )
 
 
-def _constant(mask: Mask, level: int, table: Callable[[int], NDArray[np.float64]]) -> float:
-    """Constant of the parts of an interval whose weights, both ends included, are the table."""
+def _constant(mask: Mask, level: int, in_cell: bool) -> float:
+    """Constant of the parts of a span, or of a cell."""
     samples = max(_sample_level(mask), level + _FINER)
-    if samples > _FINEST_SAMPLES:
-        # No sample lies inside a part then.
+    held = next((finest for finest in _HELD if finest >= samples), None)
+    if held is None:  # no sample is looked at inside a part
         return cell_constant(mask) * second_difference_norm(mask, level) * ROUNDING
+    kernel = _sample_kernel(mask, held, in_cell)[:, :: 1 << (held - samples)]
     between = cell_constant(mask) * second_difference_norm(mask, samples)
-    return (_largest(_off_chords(table(samples), level)) + between) * ROUNDING
+    return (_largest(_off_chords(kernel, level)) + between) * ROUNDING
 
 
-def _off_chords(samples: NDArray[np.float64], level: int = 0) -> NDArray[np.float64]:
-    """Weights of the control points in the distance of samples from chords.
+@lru_cache(maxsize=MEMORY)
+def _sample_kernel(mask: Mask, level: int, in_cell: bool) -> NDArray[np.float64]:
+    """Kernel of the samples of a span, or of a cell, both ends included."""
+    basis = BasicLimitFunction(mask)
+    return _kernel(basis.cell_table(level) if in_cell else basis.span_table(level))
+
+
+def _kernel(weights: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Double sums of weights of control points.
+
+    Where weights vanish on lines, these are their weights of the second differences; the last two
+    rows, of r, are 0 then. Differences of weights have differences of kernels.
+    """
+    return np.cumsum(np.cumsum(weights, axis=0), axis=0)
+
+
+def _largest(kernel: NDArray[np.float64]) -> float:
+    """Largest sum of the weights of second differences, of errors that vanish on lines."""
+    return float(np.abs(kernel[:-2]).sum(axis=0).max())
+
+
+def _off_chords(kernel: NDArray[np.float64], level: int = 0) -> NDArray[np.float64]:
+    """Kernel of the distance of samples from chords.
 
     Parameters
     ----------
-    samples
-        Weights of the control points in samples of an interval, ends included; shape (r, m + 1).
+    kernel
+        That of samples of an interval, ends included; shape (r, m + 1).
     level
         The chords are those of the ``2^level`` equal parts.
 
@@ -222,25 +243,19 @@ def _off_chords(samples: NDArray[np.float64], level: int = 0) -> NDArray[np.floa
     ndarray
         Shape (r, m).
     """
-    parts = 1 << level
-    inner = samples[:, :-1].reshape(len(samples), parts, -1)
-    knots = samples[:, :: inner.shape[2], None]
+    inner = kernel[:, :-1].reshape(len(kernel), 1 << level, -1)
+    knots = kernel[:, :: inner.shape[2], None]
     tau = np.arange(inner.shape[2]) / inner.shape[2]
-    error: NDArray[np.float64] = inner - (1 - tau) * knots[:, :-1] - tau * knots[:, 1:]
-    return error.reshape(len(samples), -1)
+    off = knots[:, 1:] - knots[:, :-1]
+    off = inner - knots[:, :-1] - tau * off
+    return off.reshape(len(kernel), -1)
 
 
 def _off_polygon(samples: NDArray[np.float64], mask: Mask) -> NDArray[np.float64]:
-    """The same for the distance of samples of a span, its end left out, from the polygon's edge."""
-    error = samples[:, :-1].copy()
-    tau = np.arange(error.shape[1]) / error.shape[1]
+    """Kernel of the distance of samples of a span, but for its end, from the polygon's edge."""
+    off = samples[:, :-1].copy()
+    tau = np.arange(off.shape[1]) / off.shape[1]
     # Row r weighs p_{i + r + 1 - end}.
-    error[mask.end - 1] -= 1 - tau
-    error[mask.end] -= tau
-    return error
-
-
-def _largest(error: NDArray[np.float64]) -> float:
-    """Largest sum of the weights of second differences, of errors that vanish on lines."""
-    kernel = np.cumsum(np.cumsum(error, axis=0), axis=0)[:-2]
-    return float(np.abs(kernel).sum(axis=0).max())
+    off[mask.end - 1] -= 1 - tau
+    off[mask.end] -= tau
+    return _kernel(off)
