@@ -70,6 +70,10 @@ def test_no_event_of_a_pull_takes_memory_for_all_points(canvas):
     canvas.show_polygon = False
     mouse = Mouse(canvas)
     place = canvas.scene.curves[0].vertices_px[50]
+    # The tables of the scheme are made once.
+    mouse.drag(place, place + by(30, -20))
+    canvas.repaint()
+    canvas.session.undo()
     canvas.grab()
     steps = {
         "press": lambda: mouse.press(place),
