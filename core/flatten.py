@@ -226,7 +226,9 @@ class _Density:
         wanted += np.repeat(ends[:-1], chords)
         cuts = np.rint(np.interp(wanted, self.sums, self.places)).astype(np.intp)
         cuts[begin] = fixed[:-1]
-        # Where there are fewer samples than chords wanted, several meet.
+        # Where nothing is asked for, any place will do, but it has to be in its section; and where
+        # there are fewer samples than chords wanted, several meet.
+        np.clip(cuts, np.repeat(fixed[:-1], chords), np.repeat(fixed[1:], chords), out=cuts)
         cuts = np.maximum.accumulate(np.append(cuts, fixed[-1]))
         kept: NDArray[np.intp] = cuts[np.concatenate([[True], cuts[1:] > cuts[:-1]])]
         return kept
