@@ -38,14 +38,14 @@ def numbers(shape):
     return shape.controls.reshape(-1, 2)
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(documents, drawn, tolerances)
 def test_the_deviation_with_the_rounding_stays_within_the_tolerance(document, profile, tolerance):
     contours = Contours.of(document, profile.within(tolerance))
     assert 0.7 * 10.0**-contours.places <= contours.deviation_mm <= tolerance
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(documents, drawn, tolerances)
 def test_the_box_is_that_of_the_exact_curves(document, profile, tolerance):
     contours = Contours.of(document, profile.within(tolerance))
@@ -57,7 +57,7 @@ def test_the_box_is_that_of_the_exact_curves(document, profile, tolerance):
     assert (width, height) == tuple((contours.box[1] - contours.box[0]).tolist())
 
 
-@settings(max_examples=40)
+@settings(max_examples=30)
 @given(documents, drawn)
 def test_an_inch_is_25_4_millimetres_and_nothing_else(document, profile):
     profile = profile.within(0.1)
@@ -67,7 +67,7 @@ def test_an_inch_is_25_4_millimetres_and_nothing_else(document, profile):
     assert np.allclose(inch.size_mm, metric.size_mm, atol=0.2)
 
 
-@settings(max_examples=40)
+@settings(max_examples=30)
 @given(documents, drawn)
 def test_the_corner_becomes_the_origin_and_nothing_is_turned(document, profile):
     placed, shifted = (
@@ -84,7 +84,7 @@ def test_the_corner_becomes_the_origin_and_nothing_is_turned(document, profile):
 
 
 @given(documents, drawn, tolerances)
-@settings(max_examples=40)
+@settings(max_examples=30)
 def test_all_numbers_have_the_decimals_of_the_file(document, profile, tolerance):
     contours = Contours.of(document, profile.within(tolerance))
     for contour in contours.contours:

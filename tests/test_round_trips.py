@@ -92,7 +92,7 @@ def assert_same(found, document):
         assert (one.closed, one.name) == (other.closed, other.name)
 
 
-@settings(max_examples=50)
+@settings(max_examples=30)
 @given(wild, st.sampled_from(SVGS), st.sampled_from(UNITS), st.sampled_from([1.0, 50.0]))
 def test_a_document_comes_back_from_its_svg_in_every_field(folder, document, name, unit, tolerance):
     # Something has to be there to be drawn.
@@ -104,7 +104,7 @@ def test_a_document_comes_back_from_its_svg_in_every_field(folder, document, nam
     assert_same(read_sketch(path).document, document)
 
 
-@settings(max_examples=50)
+@settings(max_examples=30)
 @given(
     documents,
     st.sampled_from(sorted(OUTLINES)),
