@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from core.errors import NinepointError
 from core.limit import LimitCurve
+from core.parallel import each
 from core.samples import Samples, Sampling
 
 _BOUND_SHARE: Final = 1 / 3
@@ -118,12 +119,15 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     if curve.spans == 0:
         return Polyline(curve.control_points, closed=False, deviation=0.0)
 
-    def flat(samples: Samples) -> tuple[NDArray[np.float64], float]:
+    sampling = Sampling(curve, tolerance, _BOUND_SHARE)
+
+    def flat(part: tuple[int, int]) -> tuple[NDArray[np.float64], float]:
+        samples = sampling.block(*part, finer=_FINER)
         fewest = FEWEST_CLOSED if curve.closed and not samples.first_span else 1
         cuts, deviation = _cuts(_Run(samples), tolerance, fewest)
         return np.stack([samples.x[cuts[:-1]], samples.y[cuts[:-1]]], axis=1), deviation
 
-    found = Sampling(curve, tolerance, _BOUND_SHARE).each(flat, finer=_FINER)
+    found = each(flat, sampling.parts())
     pieces = [points for points, _ in found]
     if not curve.closed:
         pieces.append(curve.control_points[-1:])

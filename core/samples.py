@@ -10,10 +10,9 @@ curve.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Final, TypeVar
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +20,6 @@ from numpy.typing import NDArray
 from core.bends import ChordBounds
 from core.errors import NinepointError
 from core.limit import LimitCurve
-from core.parallel import each
-
-Result = TypeVar("Result")
 
 FINEST_LEVEL: Final = 14
 """Level at which the search gives up: 16,384 samples in a span."""
@@ -121,37 +117,29 @@ class Sampling:
         """Largest bound between the samples of any span."""
         return float(self.bounds.max())
 
-    def each(
-        self,
-        work: Callable[[Samples], Result],
-        size: int = BLOCK,
-        slopes: bool = False,
-        finer: int = 0,
-    ) -> list[Result]:
-        """What a function makes of the samples, block by block, several of them at a time.
-
-        Parameters
-        ----------
-        work
-            The function. The last sample of a block is, up to rounding, the first of the next.
-        size
-            Number of samples of a block, unless one span has more.
-        slopes
-            Whether derivatives are wanted. The scheme must be C^1.
-        finer
-            Levels by which samples are finer than the proof needs: the bounds are those between
-            samples whose index is a multiple of ``2^finer``. Those between them do not count for
-            the size.
-        """
+    def parts(self, size: int = BLOCK) -> list[tuple[int, int]]:
+        """Runs of spans ``begin .. end - 1`` of so many samples, unless one span has more."""
         ends = np.cumsum(2**self.levels)
         cuts = [0]
         while cuts[-1] < len(ends):
             before = ends[cuts[-1] - 1] if cuts[-1] else 0
             end = int(np.searchsorted(ends, before + size, side="right"))
             cuts.append(max(end, cuts[-1] + 1))
-        return each(lambda ends: work(self._block(*ends, slopes, finer)), pairwise(cuts))
+        return list(pairwise(cuts))
 
-    def _block(self, begin: int, end: int, slopes: bool, finer: int) -> Samples:
+    def block(self, begin: int, end: int, slopes: bool = False, finer: int = 0) -> Samples:
+        """Samples of a part; the last one is, up to rounding, the first of the next part.
+
+        Parameters
+        ----------
+        begin, end
+            As told by `parts`.
+        slopes
+            Whether derivatives are wanted. The scheme must be C^1.
+        finer
+            Levels by which samples are finer than the proof needs: the bounds are those between
+            samples whose index is a multiple of ``2^finer``.
+        """
         levels, bounds = self.levels[begin:end], self.bounds[begin:end]
         finest = int(levels.max())
         if len(levels) << finest <= _UNEVEN * (1 << levels).sum() and (levels < finest).any():

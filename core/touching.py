@@ -167,20 +167,21 @@ def touching(curve: LimitCurve, tolerance: float, kind: type[TouchingFit]) -> Pi
     if sampling.largest_bound > _ROUGHEST_SHARE * tolerance:
         return None
     size = float(np.abs(curve.control_points).max())
-
-    def cut(
-        samples: Samples,
-    ) -> tuple[NDArray[np.complex128], NDArray[np.float64], float]:
+    joints: list[NDArray[np.complex128]] = []
+    rows: list[NDArray[np.float64]] = []
+    deviation = 0.0
+    # One after the other: threads that search in short arrays wait for each other.
+    for part in sampling.parts(_BLOCK):
+        samples = sampling.block(*part, slopes=True)
         steps = len(samples.x) - 1
-        is_first = curve.closed and not samples.first_span
-        longest = -(-steps // FEWEST_CLOSED) if is_first else steps
+        longest = -(-steps // FEWEST_CLOSED) if curve.closed and not joints else steps
         fit = kind(samples, tolerance, size)
-        cuts, errors, rows = fitted(steps, fit, tolerance - samples.bound, longest)
-        return fit.place[cuts[:-1]], rows, float(errors.max()) + samples.bound
-
-    joints, rows, deviations = zip(*sampling.each(cut, _BLOCK, slopes=True), strict=True)
+        cuts, errors, found = fitted(steps, fit, tolerance - samples.bound, longest)
+        joints.append(fit.place[cuts[:-1]])
+        rows.append(found)
+        deviation = max(deviation, float(errors.max()) + samples.bound)
     whole = np.concatenate(rows)
-    return Pieces(np.concatenate(joints), whole[:, :-1], bool(whole[:, -1].all()), max(deviations))
+    return Pieces(np.concatenate(joints), whole[:, :-1], bool(whole[:, -1].all()), deviation)
 
 
 def segment_distance(

@@ -33,7 +33,7 @@ def joined(blocks, name):
 def test_samples_are_the_exact_points_and_derivatives(mask, count, seed, closed):
     curve = LimitCurve(polygons(seed, count), mask, closed)
     sampling = Sampling(curve, 0.01, 1 / 8)
-    blocks = sampling.each(lambda samples: samples, slopes=True)
+    blocks = [sampling.block(*part, slopes=True) for part in sampling.parts()]
     found = np.stack([joined(blocks, name) for name in ("x", "y")], axis=1)
     slopes = np.stack([joined(blocks, name) for name in ("slope_x", "slope_y")], axis=1)
     spans = len(sampling.levels)
@@ -72,11 +72,11 @@ def test_the_curve_keeps_to_the_polygon_of_the_samples(mask, count, seed, tolera
 def test_long_curves_come_in_blocks_and_short_ones_in_one():
     points = np.random.default_rng(0).uniform(0, 3000, size=(3000, 2))
     sampling = Sampling(LimitCurve(points, PRESETS["Calm"].mask, True), 0.1, 1 / 8)
-    blocks = sampling.each(lambda samples: samples)
+    blocks = [sampling.block(*part) for part in sampling.parts()]
     assert len(blocks) > 1
     joined(blocks, "x")
     few = Sampling(LimitCurve(points[:9], PRESETS["Calm"].mask, True), 0.1, 1 / 8)
-    assert few.each(lambda samples: samples.first_span) == [0]
+    assert few.parts() == [(0, 9)]
 
 
 def test_straight_spans_take_no_samples_between():

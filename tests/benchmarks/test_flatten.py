@@ -1,6 +1,6 @@
 """From curve to file: polylines, arcs and cubics of large and small curves, with their proof.
 
-Run with ``python3 tests tests/benchmarks``. Long curves use all cores.
+Run with ``python3 tests tests/benchmarks``. The polyline uses all cores, the others one.
 """
 
 from __future__ import annotations
