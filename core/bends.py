@@ -13,6 +13,7 @@ from core.chords import ROUNDING, cell_constant, chord_constant
 from core.folding import folded
 from core.limit import LimitCurve
 from core.mask import Mask
+from core.parallel import each
 from core.windows import product, running_max, windows_of
 
 _REFINED: Final = 3
@@ -73,11 +74,18 @@ class ChordBounds:
         matrix = _refinement(self._mask)
         spans = self._curve.spans
         windows = windows_of(self._differences, len(matrix), spans)
-        found = np.empty(spans)
-        for begin in range(0, spans, _CHUNK):
+
+        def largest(begin: int) -> NDArray[np.float64]:
             x, y = product(windows[:, :, begin : begin + _CHUNK], matrix)
-            found[begin : begin + _CHUNK] = np.hypot(x, y).max(axis=1)
-        return found * ROUNDING
+            squares = x * x
+            squares += y * y
+            found: NDArray[np.float64] = squares.max(axis=1)
+            return found
+
+        found = np.concatenate(each(largest, range(0, spans, _CHUNK)))
+        np.sqrt(found, out=found)
+        found *= ROUNDING
+        return found
 
 
 @lru_cache(maxsize=MEMORY)

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,17 +38,17 @@ _BOUND_SHARE: Final = 1 / 3
 their steps then, mostly more."""
 
 _FINER: Final = 2
-"""Levels by which the samples that cuts fall on are finer than those that are measured."""
+"""Levels by which the places that cuts fall on are finer than the samples, at least."""
 
-_MEASURED: Final = 2**_FINER
-"""One sample in so many is measured."""
+_FINE_LEVEL: Final = 10
+"""Dyadic level of these places where samples are coarse: there is a table for all coarser ones."""
 
 _EPS: Final = float(np.finfo(float).eps)
 
 _TINY: Final = 1e-300
 """What is added to a divisor that may be 0, as its dividend is then: 0 remains."""
 
-_AIM: Final = 0.87
+_AIM: Final = 0.9
 """Share of the admitted deviation that large curves aim at: a chord may bend more than the density
 says, and be longer by a sample."""
 
@@ -57,7 +57,11 @@ _FINE_AIMS: Final = (0.98,) * 4 + (0.95,) * 4 + (0.9,) * 4
 is best with a hundred samples to a chord, the last with ten."""
 
 _FEW: Final = 2**15
-"""Number of measured samples in a block up to which the density is corrected."""
+"""Number of samples of a curve up to which the density is corrected so often."""
+
+_MANY: Final = 8
+"""Samples to a chord from which on one correction pays in large curves, too: it takes more than a
+tenth of chords away that turn far, a percent of others."""
 
 _LARGEST_CORRECTION: Final = 1.5
 """Factor by which a density is changed at most in one correction."""
@@ -121,11 +125,14 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
 
     sampling = Sampling(curve, tolerance, _BOUND_SHARE)
 
+    few = sampling.count <= _FEW
+
     def flat(part: tuple[int, int]) -> tuple[NDArray[np.float64], float]:
-        samples = sampling.block(*part, finer=_FINER)
+        samples = sampling.block(*part)
         fewest = FEWEST_CLOSED if curve.closed and not samples.first_span else 1
-        cuts, deviation = _cuts(_Run(samples), tolerance, fewest)
-        return np.stack([samples.x[cuts[:-1]], samples.y[cuts[:-1]]], axis=1), deviation
+        run = _Run(sampling, samples)
+        cuts = _cuts(run, tolerance, fewest, few)
+        return cuts.points[:, :-1].T, float(cuts.deviations.max())
 
     found = each(flat, sampling.parts())
     pieces = [points for points, _ in found]
@@ -135,56 +142,113 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     return Polyline(np.concatenate(pieces), curve.closed, deviation)
 
 
-def _cuts(run: _Run, admitted: float, fewest: int) -> tuple[NDArray[np.intp], float]:
-    """Indices of the samples that become vertices, first and last included; their deviation."""
-    few = len(run.steps) <= _FEW
-    fixed = _fixed(run, admitted)
-    density = _density(run, admitted * (1.0 if few else _AIM))
-    cuts = density.cuts(fixed, fewest)
-    deviations = _deviations(run, cuts[:-1], cuts[1:])
-    best = _halved(run, cuts, deviations, admitted)
-    for aim in _FINE_AIMS if few else ():
-        density = density.corrected(cuts, np.sqrt(deviations / (aim * admitted)))
-        cuts = density.cuts(fixed, fewest)
-        deviations = _deviations(run, cuts[:-1], cuts[1:])
-        other = _halved(run, cuts, deviations, admitted)
-        if len(other[0]) < len(best[0]):
-            best = other
-    return best[0], float(best[1].max())
-
-
-class _Run:
-    """Samples of a block: cuts fall on any of them, but few are measured.
+@dataclass(frozen=True, eq=False)
+class _Cuts:
+    """Where a block is cut into chords.
 
     Attributes
     ----------
-    last
-        Index of the last sample.
-    x, y
-        Samples that are measured, both ends included, as seen from the first one: distances are
-        differences of products, and small numbers keep their digits. Shape (m + 1,).
-    step_x, step_y, steps
-        From each of them to the next, and how far; shape (m,).
-    bounds
-        How far the curve may leave the chords of these steps, shape (m,).
-    margins
-        The larger one of the bounds before and after each measured sample, shape (m + 1,).
+    places
+        Ascending, the first and last one included, shape (n + 1,).
+    points
+        Where the curve is there, shape (2, n + 1).
+    deviations
+        Proven distances of the curve from the chords between, shape (n,).
     """
 
-    def __init__(self, samples: Samples) -> None:
-        self._x, self._y = samples.x, samples.y
-        self.last = len(samples.x) - 1
-        self.x = samples.x[::_MEASURED] - samples.x[0]
-        self.y = samples.y[::_MEASURED] - samples.y[0]
+    places: NDArray[np.intp]
+    points: NDArray[np.float64]
+    deviations: NDArray[np.float64]
+
+    def halved(self, run: _Run, admitted: float) -> _Cuts:
+        """The same with each chord that misses what is admitted halved until it fits."""
+        places, (x, y), deviations = self.places, self.points, self.deviations.copy()
+        while True:
+            wide = np.flatnonzero(deviations > admitted)
+            wide = wide[places[wide + 1] - places[wide] > 1]
+            if not len(wide):
+                return _Cuts(places, np.stack([x, y]), deviations)
+            first, last = places[wide], places[wide + 1]
+            middle = (first + last) // 2
+            middle_x, middle_y = run.at(middle)
+            start = _alternating([x[wide], middle_x], [y[wide], middle_y])
+            stop = _alternating([middle_x, x[wide + 1]], [middle_y, y[wide + 1]])
+            first, last = _alternating([first, middle], [middle, last])
+            found = _deviations(run, first, last, start, stop, admitted)
+            deviations[wide] = found[::2]
+            count = len(places)
+            order = np.insert(np.arange(count), wide + 1, np.arange(count, count + len(wide)))
+            places, x, y = (
+                _taken(np.concatenate(both), order)
+                for both in ((places, middle), (x, middle_x), (y, middle_y))
+            )
+            # The last place begins no chord.
+            deviations = _taken(np.concatenate([deviations, [0.0], found[1::2]]), order[:-1])
+
+
+def _cuts(run: _Run, admitted: float, fewest: int, few: bool) -> _Cuts:
+    """Cuts of a block, few chords that keep within what is admitted."""
+    fixed = _fixed(run, admitted)
+    density = _density(run, admitted * (1.0 if few else _AIM))
+    many = len(run.steps) > _MANY * density.sums[-1]
+    aims = _FINE_AIMS if few else (_AIM,) if many else ()
+    asked = 0.0 if aims else admitted
+    cuts = run.cut(density.cuts(fixed, fewest), asked)
+    best = cuts.halved(run, admitted)
+    for aim in aims:
+        density = density.corrected(cuts.places, np.sqrt(cuts.deviations / (aim * admitted)))
+        cuts = run.cut(density.cuts(fixed, fewest), asked)
+        other = cuts.halved(run, admitted)
+        if len(other.places) < len(best.places):
+            best = other
+    return best
+
+
+class _Run:
+    """Samples of a block, which are measured. Cuts fall on places between them, too.
+
+    Attributes
+    ----------
+    origin
+        The first sample, shape (2, 1).
+    x, y
+        Samples as seen from there: distances are differences of products, and small
+        numbers keep their digits. Shape (m + 1,).
+    step_x, step_y, steps
+        From each of them to the next, and how far; shape (m,).
+    span_bounds, bounds
+        How far the curve may leave the chords of steps: for each span, and for each step.
+    margins
+        The larger one of the bounds before and after each sample, shape (m + 1,).
+    finer
+        There are ``2^finer`` places in a step: place ``i 2^finer`` is sample i.
+    """
+
+    def __init__(self, sampling: Sampling, samples: Samples) -> None:
+        self._sampling, self._samples = sampling, samples
+        self.origin = np.array([[samples.x[0]], [samples.y[0]]])
+        self.x, self.y = samples.x - samples.x[0], samples.y - samples.y[0]
         self.step_x, self.step_y = self.x[1:] - self.x[:-1], self.y[1:] - self.y[:-1]
         self.steps = _lengths(self.step_x, self.step_y)
-        self.bounds = np.repeat(samples.bounds, np.diff(samples.starts) // _MEASURED)
+        self.span_bounds = samples.bounds
+        self.bounds = self.stepwise(samples.bounds)
         self.margins = np.append(self.bounds, self.bounds[-1])
         np.maximum(self.margins[1:-1], self.bounds[:-1], out=self.margins[1:-1])
+        self.finer = max(_FINE_LEVEL - int(samples.levels.max()), _FINER)
 
-    def places(self, samples: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where some of all samples lie, as seen from the first one."""
-        return self._x[samples] - self._x[0], self._y[samples] - self._y[0]
+    def stepwise(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The value of each span for each of its steps."""
+        return np.repeat(values, 1 << self._samples.levels)
+
+    def at(self, places: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Where the curve is at places in ascending order, shape (2, k)."""
+        return self._sampling.between(self._samples, places, self.finer)
+
+    def cut(self, places: NDArray[np.intp], asked: float) -> _Cuts:
+        """The chords between places; `_deviations` tells what is asked."""
+        points = self.at(places)
+        first, last, start, stop = places[:-1], places[1:], points[:, :-1], points[:, 1:]
+        return _Cuts(places, points, _deviations(self, first, last, start, stop, asked))
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,23 +257,29 @@ class _Density:
 
     Attributes
     ----------
-    places
-        Samples between which the density is constant, rising, with both ends of the block; shape
-        (m + 1,).
     shares
-        Chords between each two of them, shape (m,).
+        Chords that each step asks for, shape (m,).
+    finer
+        As in `_Run`.
     """
 
-    places: NDArray[np.float64]
     shares: NDArray[np.float64]
+    finer: int
 
     @cached_property
     def sums(self) -> NDArray[np.float64]:
-        """Chords from the start of the block to each of the places."""
-        return np.concatenate([[0.0], np.cumsum(self.shares)])
+        """Chords from the start of the block to each of the samples."""
+        sums = np.zeros(len(self.shares) + 1)
+        np.cumsum(self.shares, out=sums[1:])
+        return sums
+
+    @cached_property
+    def places(self) -> NDArray[np.float64]:
+        """The places of the samples."""
+        return np.arange(0.0, len(self.sums) << self.finer, 1 << self.finer)
 
     def cuts(self, fixed: NDArray[np.intp], fewest: int) -> NDArray[np.intp]:
-        """Samples that share out what lies between each two fixed ones to whole chords.
+        """Places that share out what lies between each two fixed ones to whole chords.
 
         Parameters
         ----------
@@ -219,7 +289,7 @@ class _Density:
             Number of chords before the second fixed one that there are at least, unless there are
             more sections.
         """
-        ends = np.interp(fixed, self.places, self.sums)
+        ends = self.sums[fixed]
         sections = np.diff(ends)
         chords = np.maximum(np.ceil(sections), 1.0).astype(np.intp)
         if len(chords) < fewest:
@@ -229,9 +299,10 @@ class _Density:
         wanted = wanted * np.repeat(sections / chords, chords)
         wanted += np.repeat(ends[:-1], chords)
         cuts = np.rint(np.interp(wanted, self.sums, self.places)).astype(np.intp)
+        fixed = fixed << self.finer
         cuts[begin] = fixed[:-1]
         # Where nothing is asked for, any place will do, but it has to be in its section; and where
-        # there are fewer samples than chords wanted, several meet.
+        # there are fewer places than chords wanted, several meet.
         np.clip(cuts, np.repeat(fixed[:-1], chords), np.repeat(fixed[1:], chords), out=cuts)
         cuts = np.maximum.accumulate(np.append(cuts, fixed[-1]))
         kept: NDArray[np.intp] = cuts[np.concatenate([[True], cuts[1:] > cuts[:-1]])]
@@ -243,7 +314,7 @@ class _Density:
         factors = np.divide(wanted, had, out=np.ones_like(had), where=had > 0)
         factors = np.clip(factors, 1 / _LARGEST_CORRECTION, _LARGEST_CORRECTION)
         inside = np.searchsorted(cuts, self.places[:-1], side="right") - 1
-        return _Density(self.places, self.shares * factors[inside])
+        return _Density(self.shares * factors[inside], self.finer)
 
 
 def _fixed(run: _Run, admitted: float) -> NDArray[np.intp]:
@@ -259,16 +330,16 @@ def _fixed(run: _Run, admitted: float) -> NDArray[np.intp]:
     strides = np.hypot(np.diff(x[turns]), np.diff(y[turns]))
     # Rings and rounding about a place where the curve stops turn back a hundred times.
     far = strides > _EXTREME_SHARE * admitted
-    chosen = [_MEASURED * turns[[0, -1]], _MEASURED * turns[1:-1][far[:-1] | far[1:]]]
+    chosen = [turns[[0, -1]], turns[1:-1][far[:-1] | far[1:]]]
     for values in (x, y):
         extremes = np.array([values.argmin(), values.argmax()])
         beyond = np.abs(values[[0, -1]][:, None] - values[extremes]).min(axis=0)
-        chosen.append(_MEASURED * extremes[beyond > _EXTREME_SHARE * admitted])
+        chosen.append(extremes[beyond > _EXTREME_SHARE * admitted])
     return np.unique(np.concatenate(chosen))
 
 
 def _density(run: _Run, admitted: float) -> _Density:
-    """Number of chords that measured samples ask for; nothing at the first one.
+    """Number of chords that steps ask for; nothing at the first one.
 
     With steps of length s the cross product of two neighbours is ``k s^3``, hence the formula.
     """
@@ -277,80 +348,94 @@ def _density(run: _Run, admitted: float) -> _Density:
     np.abs(cross, out=cross)
     both = run.steps[:-1] + run.steps[1:]
     # What lies between the samples takes its part of what is admitted.
-    both *= 4 * (admitted - run.bounds[1:])
+    both *= run.stepwise(4 * (admitted - run.span_bounds))[1:]
     both += _TINY
     shares = np.zeros(len(run.steps))
     np.divide(cross, both, out=shares[1:])
-    places = np.arange(0.0, run.last + 1, _MEASURED)
-    return _Density(places, np.sqrt(shares, out=shares))
+    return _Density(np.sqrt(shares, out=shares), run.finer)
 
 
 def _deviations(
-    run: _Run, first: NDArray[np.intp], last: NDArray[np.intp]
+    run: _Run,
+    first: NDArray[np.intp],
+    last: NDArray[np.intp],
+    start: NDArray[np.float64],
+    stop: NDArray[np.float64],
+    asked: float,
 ) -> NDArray[np.float64]:
-    """Proven distance of the curve between samples ``first`` and ``last`` from their chord.
+    """Proven bounds of the distance of the curve from chords between places.
 
     The distance from the line of the chord is measured. A sample that lies s beyond an end of the
     chord makes the way through the samples longer than the chord by 2 s at least, so half of that
     excess bounds s.
+
+    Parameters
+    ----------
+    run
+        The samples.
+    first, last
+        Places, ascending; no two chords overlap. Shape (n,).
+    start, stop
+        Where the curve is there, shape (2, n).
+    asked
+        Which chords keep within this distance is what is asked: the bounds of those that do may be
+        larger than need be, up to this distance. It takes less time than to ask for each bound, 0.
     """
-    begin, end = -(-first // _MEASURED), -(-last // _MEASURED)
+    begin, end = -(-first >> run.finer), -(-last >> run.finer)
     counts = end - begin
     final = np.maximum(end - 1, 0)
+    # Where no sample lies between, the ends are within the bound of one step, and so is the curve.
+    between = 2 * _taken(run.bounds, final)
     if not counts.any():
-        return 2 * run.bounds[final]
+        return between
     leader = np.cumsum(counts) - counts
-    if (first[1:] == last[:-1]).all():
-        x, y = run.places(np.append(first, last[-1]))
-        from_x, from_y, to_x, to_y = x[:-1], y[:-1], x[1:], y[1:]
+    size = int(leader[-1] + counts[-1])
+    # To which chord each sample belongs: `numpy.repeat` would hold up the other threads.
+    chords: NDArray[np.intp] = np.cumsum(np.bincount(leader[1:], minlength=size)[:size])
+    if end[-1] - begin[0] == size:
         seen: slice | NDArray[np.intp] = slice(begin[0], end[-1])
     else:
-        (from_x, from_y), (to_x, to_y) = run.places(first), run.places(last)
-        seen = np.repeat(begin - leader, counts) + np.arange(counts.sum())
-    way_x, way_y = to_x - from_x, to_y - from_y
+        seen = _taken(begin - leader, chords)
+        seen += np.arange(size)
+    from_x, from_y = start - run.origin
+    way_x, way_y = stop - start
     lengths = _lengths(way_x, way_y)
     scale = 1.0 / (lengths + _TINY)
     normal_x, normal_y = -way_y * scale, way_x * scale
-    away = np.repeat(normal_x, counts)
+    away = _taken(normal_x, chords)
     away *= run.x[seen]
-    other = np.repeat(normal_y, counts)
+    other = _taken(normal_y, chords)
     other *= run.y[seen]
     away += other
-    away -= np.repeat(normal_x * from_x + normal_y * from_y, counts)
+    away -= _taken(normal_x * from_x + normal_y * from_y, chords)
     np.abs(away, out=away)
     margins = run.margins[seen]
     np.maximum(away, margins, out=away)
     away += margins
-    # What ``reduceat`` finds for a chord without measured samples is not used.
-    leader = np.minimum(leader, len(away) - 1)
-    deviations = np.maximum.reduceat(away, leader)
     # The way leads to the first measured sample, on to the last one, and to the end.
-    way = np.add.reduceat(run.steps[seen], leader) - run.steps[final]
-    way += _lengths(run.x[begin] - from_x, run.y[begin] - from_y)
-    way += _lengths(to_x - run.x[final], to_y - run.y[final])
-    way *= 1 + (counts + 4) * _EPS
-    deviations += np.maximum(way - lengths, 0.0) / 2
-    return np.where(counts == 0, 2 * run.bounds[final], deviations)
+    way = np.bincount(chords, run.steps[seen], len(counts)) - _taken(run.steps, final)
+    way += _lengths(_taken(run.x, begin) - from_x, _taken(run.y, begin) - from_y)
+    to_x, to_y = stop - run.origin
+    way += _lengths(to_x - _taken(run.x, final), to_y - _taken(run.y, final))
+    way *= 1 + (int(counts.max()) + 4) * _EPS
+    beyond = np.maximum(way - lengths, 0.0) / 2
+    # Only what is larger than this can be too large with what lies beyond the ends.
+    large = asked - min(float(beyond.max()), asked / 2)
+    some = np.flatnonzero(away > large)
+    deviations = np.full(len(counts), min(large, float(away.max())))
+    np.maximum.at(deviations, _taken(chords, some), _taken(away, some))
+    deviations += beyond
+    return np.where(counts == 0, between, deviations)
 
 
-def _halved(
-    run: _Run,
-    cuts: NDArray[np.intp],
-    deviations: NDArray[np.float64],
-    admitted: float,
-) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Cuts and deviations when each chord that misses what is admitted is halved until it fits."""
-    while True:
-        wide = np.flatnonzero((deviations > admitted) & (np.diff(cuts) > 1))
-        if not len(wide):
-            return cuts, deviations
-        first, last = cuts[wide], cuts[wide + 1]
-        middle = (first + last) // 2
-        begin, end = np.concatenate([first, middle]), np.concatenate([middle, last])
-        left, right = np.split(_deviations(run, begin, end), 2)
-        deviations = np.insert(deviations, wide, left)
-        deviations[wide + 1 + np.arange(len(wide))] = right
-        cuts = np.insert(cuts, wide + 1, middle)
+def _alternating(*pairs: list[NDArray[Any]]) -> NDArray[Any]:
+    """For each pair of arrays a row whose entries are taken of one and the other in turn."""
+    return np.stack(pairs).transpose(0, 2, 1).reshape(len(pairs), -1)
+
+
+def _taken(values: NDArray[Any], indices: NDArray[np.intp]) -> NDArray[Any]:
+    """``values[indices]`` for indices that need no check: half of the time."""
+    return values.take(indices, mode="clip")
 
 
 def _lengths(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:

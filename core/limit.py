@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from core.basis import BasicLimitFunction
 from core.ends import extended
 from core.mask import Mask
-from core.windows import product, windows_of
+from core.windows import product, scattered, windows_of
 
 MAX_LEVEL = 20
 """Finest dyadic level that is tabulated: a million points per span."""
@@ -197,6 +197,28 @@ class LimitCurve:
         """
         _check_level(level)
         return product(self._windows[:, :, spans], self._basis.table(level, order), out)
+
+    def scattered_points(
+        self, spans: NDArray[np.intp], places: NDArray[np.intp], level: int
+    ) -> NDArray[np.float64]:
+        """Exact points at ``t = spans[i] + places[i] / 2^level``, each coordinate apart.
+
+        Parameters
+        ----------
+        spans
+            Spans within ``range(self.spans)``, shape (k,).
+        places
+            Integers within ``range(2^level)``, shape (k,).
+        level
+            Dyadic level, 0 to `MAX_LEVEL`.
+
+        Returns
+        -------
+        ndarray
+            Shape (2, k). The start of an open curve is exact up to rounding only.
+        """
+        _check_level(level)
+        return scattered(self._windows, self._basis.table(level), spans, places)
 
     def _pin_ends(self, points: NDArray[np.float64], spans: slice | NDArray[np.intp]) -> None:
         """Put the ends of an open curve, among points of spans (2, k, m), where they belong."""

@@ -11,6 +11,7 @@ curve.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import Final
 
@@ -40,7 +41,8 @@ two, and so on: it costs nothing that a hand could feel, and cuts can lie closer
 best."""
 
 _UNEVEN: Final = 1.5
-"""Samples that a block may take more, as a factor, to have one level for all of its spans."""
+"""Samples that a block may take more, as a factor, to have few levels for its spans: what is moved
+in long runs is moved sooner."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +58,8 @@ class Samples:
     bounds
         Proven bounds of the distance between the curve and the polygon of the samples, one for each
         span, rounding included; parametrically: curve and chord at equal shares of their intervals.
-    starts
-        Indices of the samples at which the spans start, and of the last sample.
+    levels
+        Dyadic level of each span: it has ``2^level`` samples, without its end.
     slope_x, slope_y
         Derivatives with respect to t, shape (n + 1,), if they were asked for, else empty.
     """
@@ -66,9 +68,14 @@ class Samples:
     x: NDArray[np.float64]
     y: NDArray[np.float64]
     bounds: NDArray[np.float64]
-    starts: NDArray[np.intp]
+    levels: NDArray[np.intp]
     slope_x: NDArray[np.float64]
     slope_y: NDArray[np.float64]
+
+    @cached_property
+    def starts(self) -> NDArray[np.intp]:
+        """Indices of the samples at which the spans start, and of the last sample."""
+        return np.concatenate([[0], np.cumsum(1 << self.levels)])
 
     @property
     def bound(self) -> float:
@@ -106,11 +113,16 @@ class Sampling:
         for level in np.flatnonzero(np.bincount(self.levels)):
             chosen = self.levels == level
             self.bounds[chosen] = self._bounds_at(int(level))[chosen]
-        if (2**self.levels).sum() > MAX_SAMPLES:
+        if self.count > MAX_SAMPLES:
             raise NinepointError(
                 f"{curve.spans:,} spans within {tolerance:g} mm need too many vertices;"
                 " choose a larger tolerance."
             )
+
+    @property
+    def count(self) -> int:
+        """Number of samples that the levels ask for."""
+        return int((1 << self.levels).sum())
 
     @property
     def largest_bound(self) -> float:
@@ -127,7 +139,7 @@ class Sampling:
             cuts.append(max(end, cuts[-1] + 1))
         return list(pairwise(cuts))
 
-    def block(self, begin: int, end: int, slopes: bool = False, finer: int = 0) -> Samples:
+    def block(self, begin: int, end: int, slopes: bool = False) -> Samples:
         """Samples of a part; the last one is, up to rounding, the first of the next part.
 
         Parameters
@@ -136,16 +148,13 @@ class Sampling:
             As told by `parts`.
         slopes
             Whether derivatives are wanted. The scheme must be C^1.
-        finer
-            Levels by which samples are finer than the proof needs: the bounds are those between
-            samples whose index is a multiple of ``2^finer``.
         """
         levels, bounds = self.levels[begin:end], self.bounds[begin:end]
-        finest = int(levels.max())
-        if len(levels) << finest <= _UNEVEN * (1 << levels).sum() and (levels < finest).any():
-            levels = np.full(len(levels), finest)
-            bounds = self._bounds_at(finest, slice(begin, end))
-        levels = levels + finer
+        coarsest = _coarsest(levels)
+        if (levels < coarsest).any():
+            raised = self._bounds_at(coarsest, slice(begin, end))
+            bounds = np.where(levels < coarsest, raised, bounds)
+            levels = np.maximum(levels, coarsest)
         x, y = self._values(begin, levels, 0)
         curve = self.curve
         if not curve.closed:
@@ -158,8 +167,39 @@ class Sampling:
             x[-1], y[-1] = x[0], y[0]
         none = np.zeros(0)
         slope_x, slope_y = self._values(begin, levels, 1) if slopes else (none, none)
-        starts = np.concatenate([[0], np.cumsum(1 << levels)])
-        return Samples(begin, x, y, bounds, starts, slope_x, slope_y)
+        return Samples(begin, x, y, bounds, levels, slope_x, slope_y)
+
+    def between(
+        self, samples: Samples, places: NDArray[np.intp], finer: int
+    ) -> NDArray[np.float64]:
+        """Exact points at some of ``2^finer`` equal shares of the steps between samples.
+
+        Parameters
+        ----------
+        samples
+            A block.
+        places
+            Sample i and j shares more are ``i 2^finer + j``. Ascending; shape (k,).
+        finer
+            Such that no span's level gets beyond what is tabulated (`core.limit.MAX_LEVEL`).
+
+        Returns
+        -------
+        ndarray
+            Shape (2, k). The first and the last sample are exactly those of the block.
+        """
+        starts = samples.starts << finer
+        inside = np.searchsorted(places, starts)
+        inside[-1] = len(places)
+        spans = np.repeat(np.arange(len(starts) - 1), np.diff(inside))
+        level = finer + int(samples.levels.max())
+        shares = (places - starts[spans]) << (level - finer - samples.levels[spans])
+        points = self.curve.scattered_points(spans + samples.first_span, shares, level)
+        # The last sample of the block is no start of a span.
+        for end in (0, -1):
+            if len(places) and places[end] == starts[end]:
+                points[:, end] = samples.x[end], samples.y[end]
+        return points
 
     def _values(self, begin: int, levels: NDArray[np.intp], order: int) -> NDArray[np.float64]:
         """Points or derivatives of the spans from ``begin`` on, and of the end of the last one.
@@ -168,19 +208,28 @@ class Sampling:
         """
         curve, end = self.curve, begin + len(levels)
         values = np.empty((2, int((1 << levels).sum()) + 1))
-        # Values are moved in runs as long as the span that has fewest.
+        # Values are moved in runs as long as the span that has fewest. All spans have one at least:
+        # where some have more, theirs are put in its place.
         fewest = int(levels.min())
         runs = values[:, :-1].reshape(2, -1, 1 << fewest)
         count = 1 << (levels - fewest)
-        first = np.cumsum(count) - count
-        for level in np.flatnonzero(np.bincount(levels)):
-            chosen = np.flatnonzero(levels == level)
-            if len(chosen) == len(levels):
-                curve.span_starts(slice(begin, end), int(level), order, runs)
-            else:
-                found = curve.span_starts(begin + chosen, int(level), order)
-                places = first[chosen][:, None] + np.arange(1 << (level - fewest))
-                runs[:, places.ravel()] = found.reshape(2, -1, 1 << fewest)
+        if len(levels) == runs.shape[1]:
+            curve.span_starts(slice(begin, end), fewest, order, runs)
+        else:
+            several = np.flatnonzero(levels > fewest)
+            found = np.empty((2, len(levels) + int(count[several].sum()), 1 << fewest))
+            curve.span_starts(slice(begin, end), fewest, order, found[:, : len(levels)])
+            source = np.repeat(np.arange(len(levels)), count)
+            filled = len(levels)
+            for level in np.flatnonzero(np.bincount(levels[several])).tolist():
+                chosen = several[levels[several] == level]
+                after = filled + (len(chosen) << (level - fewest))
+                part = curve.span_starts(begin + chosen, level, order)
+                found[:, filled:after] = part.reshape(2, -1, 1 << fewest)
+                source[np.repeat(levels == level, count)] = np.arange(filled, after)
+                filled = after
+            for coordinate, run in zip(found, runs, strict=True):
+                coordinate.take(source, axis=0, out=run, mode="clip")
         values[:, -1] = curve.span_points(slice(end - 1, end), 0, order)[0, -1]
         return values
 
@@ -208,3 +257,15 @@ class Sampling:
                 break
             levels = finer
         return levels
+
+
+def _coarsest(levels: NDArray[np.intp]) -> int:
+    """The level up to which all spans of a block may be raised."""
+    counts = np.bincount(levels)
+    levels_there = np.arange(len(counts))
+    allowed = _UNEVEN * (counts << levels_there).sum()
+    return max(
+        int(level)
+        for level in np.flatnonzero(counts)
+        if (counts << np.maximum(levels_there, level)).sum() <= allowed
+    )

@@ -12,6 +12,7 @@ from core.errors import NinepointError
 from core.family import PRESETS, Parameters
 from core.flatten import polyline
 from core.limit import LimitCurve
+from core.samples import Sampling
 from core.shape import curvatures, tangents
 from oracles import convergent_members
 
@@ -29,6 +30,14 @@ def distance_to_polyline(points, vertices, closed):
         share = np.clip(((points - s) @ c) / square, 0, 1)
         nearest = np.minimum(nearest, np.hypot(*(points - s - share[:, None] * c).T))
     return nearest.max()
+
+
+def parts_of(curve, count):
+    """Open curves that are about as long together as a closed one, each of few samples."""
+    size = len(curve.control_points) // count
+    for begin in range(0, count * size, size):
+        part = np.take(curve.control_points, range(begin, begin + size + 1), axis=0, mode="wrap")
+        yield LimitCurve(part, curve.mask, False)
 
 
 @given(
@@ -136,6 +145,22 @@ def test_long_curves_are_cut_in_blocks_without_a_gap():
     assert flat.points[-1].tolist() == spiral[-1].tolist()
     steps = np.hypot(*np.diff(flat.points, axis=0).T)
     assert 0 < steps.min() < steps.max() < 20
+
+
+@pytest.mark.parametrize("name", ["Tight", "B-spline"])
+@pytest.mark.parametrize("tolerance", [0.02, 1.0])
+def test_long_curves_keep_within_the_stated_deviation(name, tolerance):
+    """Of long curves it is only asked which chords are too long, not what each one's bound is."""
+    rng = np.random.default_rng(3)
+    points = np.cumsum(rng.normal(size=(4000, 2)), axis=0) * 30
+    curve = LimitCurve(points, PRESETS[name].mask, True)
+    assert Sampling(curve, tolerance, 1 / 3).count > 2**15
+    flat = polyline(curve, tolerance)
+    dense = rng.permutation(curve.points(7))[:600]
+    away = distance_to_polyline(dense, flat.points, closed=True)
+    assert away <= flat.deviation <= tolerance
+    few = sum(len(polyline(part, tolerance).points) for part in parts_of(curve, 40))
+    assert len(flat.points) <= 1.12 * few
 
 
 def test_points_far_apart_and_many_at_one_place():

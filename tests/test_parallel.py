@@ -2,6 +2,7 @@
 
 import gc
 import threading
+import time
 
 import pytest
 
@@ -34,6 +35,9 @@ def test_what_an_item_raises_is_raised_and_those_that_wait_are_not_begun():
 
     def work(item):
         begun.append(item)
+        if item:
+            # Long enough for the caller to hear of the first one, however busy the machine is.
+            time.sleep(0.05)
         raise ValueError(f"item {item}")
 
     with pytest.raises(ValueError, match="item 0"):

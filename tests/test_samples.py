@@ -37,10 +37,9 @@ def test_samples_are_the_exact_points_and_derivatives(mask, count, seed, closed)
     found = np.stack([joined(blocks, name) for name in ("x", "y")], axis=1)
     slopes = np.stack([joined(blocks, name) for name in ("slope_x", "slope_y")], axis=1)
     spans = len(sampling.levels)
-    if len(found) - 1 == (2**sampling.levels).sum():
-        levels = sampling.levels
-    else:
-        levels = np.full(spans, sampling.levels.max())
+    levels = np.concatenate([block.levels for block in blocks])
+    assert (levels >= sampling.levels).all()
+    assert (2**levels).sum() <= 1.5 * sampling.count
     first = np.concatenate([[0], np.cumsum(2**levels)])
     assert len(found) == first[-1] + 1
     for span in range(spans):
@@ -67,6 +66,39 @@ def test_the_curve_keeps_to_the_polygon_of_the_samples(mask, count, seed, tolera
         chords = nodes[:-1, None] * (1 - share) + nodes[1:, None] * share
         away = np.hypot(*(dense[:-1] - chords.reshape(-1, 2)).T).max()
         assert away <= sampling.bounds[span]
+
+
+@given(masks, st.integers(2, 40), st.integers(0, 10**6), st.booleans())
+def test_points_between_samples_are_exact(mask, count, seed, closed):
+    curve = LimitCurve(polygons(seed, count), mask, closed)
+    sampling = Sampling(curve, 0.01, 1 / 8)
+    block = sampling.block(*sampling.parts()[0])
+    last = len(block.x) - 1
+    rng = np.random.default_rng(seed)
+    places = np.unique(np.append(rng.integers(0, last << 3, 200), [0, 5, last << 3]))
+    found = sampling.between(block, places, 3)
+    span = np.minimum(np.searchsorted(block.starts, places / 8, "right"), len(block.levels)) - 1
+    t = span + (places / 8 - block.starts[span]) / 2.0 ** block.levels[span]
+    exact = np.array([curve.at(value) for value in t]).T
+    np.testing.assert_allclose(found, exact, rtol=0, atol=1e-11)
+    assert found[:, 0].tolist() == [block.x[0], block.y[0]]
+    assert found[:, -1].tolist() == [block.x[-1], block.y[-1]]
+    on = places % 8 == 0
+    samples = np.stack([block.x, block.y])[:, places[on] // 8]
+    np.testing.assert_allclose(found[:, on], samples, rtol=0, atol=1e-11)
+    assert sampling.between(block, np.array([], dtype=int), 3).shape == (2, 0)
+
+
+def test_the_spans_of_a_block_have_few_levels_where_that_takes_few_samples():
+    """A level that most spans have is raised to by others, but not one that few have."""
+    bent = np.random.default_rng(1).uniform(0, 30, size=(400, 2))
+    bent[200:] = bent[199] + np.outer(np.arange(200), [3, 4])
+    sampling = Sampling(LimitCurve(bent, PRESETS["Calm"].mask, False), 0.001, 1 / 8)
+    assert (sampling.levels == 0).sum() > 150
+    levels = np.concatenate([sampling.block(*part).levels for part in sampling.parts()])
+    assert len(np.unique(levels)) < len(np.unique(sampling.levels))
+    assert (levels[sampling.levels == 0] > 0).all()
+    assert (levels < levels.max()).any()
 
 
 def test_long_curves_come_in_blocks_and_short_ones_in_one():

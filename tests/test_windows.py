@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core.windows import product, running_max, windows_of
+from core.windows import product, running_max, scattered, windows_of
 
 
 @pytest.mark.parametrize("count", [1, 7, 5000])
@@ -18,6 +18,16 @@ def test_products_are_those_of_each_window(count):
     product(windows, table, whole[:, :-1].reshape(2, count, 40))
     np.testing.assert_allclose(whole[:, :-1].reshape(2, count, 40), expected, atol=1e-12)
     assert (whole[:, -1] == 0).all()
+
+
+@pytest.mark.parametrize("count", [0, 1, 500])
+def test_scattered_entries_are_those_of_the_product(count):
+    rng = np.random.default_rng(count)
+    coordinates, table = rng.normal(size=(2, 30)), rng.normal(size=(5, 40))
+    windows = windows_of(coordinates, 5, 26)
+    places, columns = rng.integers(0, 26, count), rng.integers(0, 40, count)
+    expected = product(windows, table)[:, places, columns]
+    np.testing.assert_allclose(scattered(windows, table, places, columns), expected, atol=1e-12)
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 8, 13])
