@@ -32,6 +32,7 @@ from core.errors import NinepointError
 from core.limit import LimitCurve
 from core.parallel import each
 from core.samples import Samples, Sampling
+from core.segments import Segments
 
 _BOUND_SHARE: Final = 1 / 3
 """Share of the tolerance that the bound between measured samples takes at most: a chord has two of
@@ -313,8 +314,8 @@ class _Density:
         had = np.diff(np.interp(cuts, self.places, self.sums))
         factors = np.divide(wanted, had, out=np.ones_like(had), where=had > 0)
         factors = np.clip(factors, 1 / _LARGEST_CORRECTION, _LARGEST_CORRECTION)
-        inside = np.searchsorted(cuts, self.places[:-1], side="right") - 1
-        return _Density(self.shares * factors[inside], self.finer)
+        counts = np.diff(-(-cuts >> self.finer))
+        return _Density(self.shares * Segments(counts).spread(factors), self.finer)
 
 
 def _fixed(run: _Run, admitted: float) -> NDArray[np.intp]:
@@ -388,32 +389,29 @@ def _deviations(
     between = 2 * _taken(run.bounds, final)
     if not counts.any():
         return between
-    leader = np.cumsum(counts) - counts
-    size = int(leader[-1] + counts[-1])
-    # To which chord each sample belongs: `numpy.repeat` would hold up the other threads.
-    chords: NDArray[np.intp] = np.cumsum(np.bincount(leader[1:], minlength=size)[:size])
-    if end[-1] - begin[0] == size:
+    samples = Segments(counts)
+    if end[-1] - begin[0] == samples.size:
         seen: slice | NDArray[np.intp] = slice(begin[0], end[-1])
     else:
-        seen = _taken(begin - leader, chords)
-        seen += np.arange(size)
+        seen = samples.spread(begin - samples.starts)
+        seen += np.arange(samples.size)
     from_x, from_y = start - run.origin
     way_x, way_y = stop - start
     lengths = _lengths(way_x, way_y)
     scale = 1.0 / (lengths + _TINY)
     normal_x, normal_y = -way_y * scale, way_x * scale
-    away = _taken(normal_x, chords)
+    away = samples.spread(normal_x)
     away *= run.x[seen]
-    other = _taken(normal_y, chords)
+    other = samples.spread(normal_y)
     other *= run.y[seen]
     away += other
-    away -= _taken(normal_x * from_x + normal_y * from_y, chords)
+    away -= samples.spread(normal_x * from_x + normal_y * from_y)
     np.abs(away, out=away)
     margins = run.margins[seen]
     np.maximum(away, margins, out=away)
     away += margins
     # The way leads to the first measured sample, on to the last one, and to the end.
-    way = np.bincount(chords, run.steps[seen], len(counts)) - _taken(run.steps, final)
+    way = samples.sums(run.steps[seen]) - _taken(run.steps, final)
     way += _lengths(_taken(run.x, begin) - from_x, _taken(run.y, begin) - from_y)
     to_x, to_y = stop - run.origin
     way += _lengths(to_x - _taken(run.x, final), to_y - _taken(run.y, final))
@@ -421,10 +419,7 @@ def _deviations(
     beyond = np.maximum(way - lengths, 0.0) / 2
     # Only what is larger than this can be too large with what lies beyond the ends.
     large = asked - min(float(beyond.max()), asked / 2)
-    some = np.flatnonzero(away > large)
-    deviations = np.full(len(counts), min(large, float(away.max())))
-    np.maximum.at(deviations, _taken(chords, some), _taken(away, some))
-    deviations += beyond
+    deviations = samples.maxima(away, large) + beyond
     return np.where(counts == 0, between, deviations)
 
 

@@ -208,17 +208,17 @@ class LimitCurve:
         spans
             Spans within ``range(self.spans)``, shape (k,).
         places
-            Integers within ``range(2^level)``, shape (k,).
+            Integers within ``range(2^level + 1)``, shape (k,): the end of a span is a part of it.
         level
             Dyadic level, 0 to `MAX_LEVEL`.
 
         Returns
         -------
         ndarray
-            Shape (2, k). The start of an open curve is exact up to rounding only.
+            Shape (2, k). The ends of an open curve are exact up to rounding only.
         """
         _check_level(level)
-        return scattered(self._windows, self._basis.table(level), spans, places)
+        return scattered(self._windows, self._basis.span_table(level), spans, places)
 
     def _pin_ends(self, points: NDArray[np.float64], spans: slice | NDArray[np.intp]) -> None:
         """Put the ends of an open curve, among points of spans (2, k, m), where they belong."""

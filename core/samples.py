@@ -195,7 +195,6 @@ class Sampling:
         level = finer + int(samples.levels.max())
         shares = (places - starts[spans]) << (level - finer - samples.levels[spans])
         points = self.curve.scattered_points(spans + samples.first_span, shares, level)
-        # The last sample of the block is no start of a span.
         for end in (0, -1):
             if len(places) and places[end] == starts[end]:
                 points[:, end] = samples.x[end], samples.y[end]

@@ -13,6 +13,9 @@ _WHOLE: Final = 2**17
 _CHUNK: Final = 1024
 """Windows in each product beyond that: a copy of them, some 300 kB, stays in the cache."""
 
+_SEVERAL: Final = 1024
+"""Single entries up to which it is faster to gather all that is multiplied at once."""
+
 
 def windows_of(coordinates: NDArray[np.float64], size: int, count: int) -> NDArray[np.float64]:
     """Windows as a read-only view: ``out[r, c, k] = coordinates[c, k + r]``.
@@ -64,8 +67,12 @@ def scattered(
 ) -> NDArray[np.float64]:
     """``out[c, i] = sum_r windows[r, c, places[i]] table[r, columns[i]]``.
 
-    Each takes as long as twenty entries of a `product`. Indices are not checked.
+    Each takes as long as twenty entries of a `product`. Indices within the arrays are expected.
     """
+    if len(places) <= _SEVERAL:
+        out: NDArray[np.float64]
+        out = np.einsum("rci,ri->ci", windows[:, :, places], table[:, columns])
+        return out
     out = np.zeros((2, len(places)))
     weight, part = np.empty((2, len(places)))
     for window, row in zip(windows, table, strict=True):
