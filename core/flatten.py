@@ -35,8 +35,9 @@ from core.samples import Samples, Sampling
 from core.segments import Segments
 
 _BOUND_SHARE: Final = 1 / 3
-"""Share of the tolerance that the bound between measured samples takes at most: a chord has two of
-their steps then, mostly more."""
+"""Share of the tolerance that the bound between samples takes at most. With a half, a tenth of the
+time is saved, but there are curves that take a fifth more chords. Its double is within the
+tolerance anyway."""
 
 _FINER: Final = 2
 """Levels by which the places that cuts fall on are finer than the samples, at least."""
@@ -100,7 +101,7 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
 
     Straight runs take one chord, and chords are as long as their places allow, nearly. Vertices
     are always: the curve at t = 0, its extremes in x and y, places where it turns back on itself,
-    and one in 2^16 measured samples of a large curve.
+    and one in 2^17 samples of a large curve.
 
     Parameters
     ----------
@@ -133,7 +134,7 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
         fewest = FEWEST_CLOSED if curve.closed and not samples.first_span else 1
         run = _Run(sampling, samples)
         cuts = _cuts(run, tolerance, fewest, few)
-        return cuts.points[:, :-1].T, float(cuts.deviations.max())
+        return cuts.points[:, :-1].T, max(float(cuts.deviations.max()), 2 * samples.bound)
 
     found = each(flat, sampling.parts())
     pieces = [points for points, _ in found]
@@ -364,7 +365,8 @@ def _deviations(
     stop: NDArray[np.float64],
     asked: float,
 ) -> NDArray[np.float64]:
-    """Proven bounds of the distance of the curve from chords between places.
+    """Proven bounds of the distance of the curve from chords between places, unless double `bounds`
+    are larger.
 
     The distance from the line of the chord is measured. A sample that lies s beyond an end of the
     chord makes the way through the samples longer than the chord by 2 s at least, so half of that
@@ -385,10 +387,8 @@ def _deviations(
     begin, end = -(-first >> run.finer), -(-last >> run.finer)
     counts = end - begin
     final = np.maximum(end - 1, 0)
-    # Where no sample lies between, the ends are within the bound of one step, and so is the curve.
-    between = 2 * _taken(run.bounds, final)
     if not counts.any():
-        return between
+        return np.zeros(len(counts))
     samples = Segments(counts)
     if end[-1] - begin[0] == samples.size:
         seen: slice | NDArray[np.intp] = slice(begin[0], end[-1])
@@ -407,9 +407,7 @@ def _deviations(
     away += other
     away -= samples.spread(normal_x * from_x + normal_y * from_y)
     np.abs(away, out=away)
-    margins = run.margins[seen]
-    np.maximum(away, margins, out=away)
-    away += margins
+    away += run.margins[seen]
     # The way leads to the first measured sample, on to the last one, and to the end.
     way = samples.sums(run.steps[seen]) - _taken(run.steps, final)
     way += _lengths(_taken(run.x, begin) - from_x, _taken(run.y, begin) - from_y)
@@ -419,8 +417,7 @@ def _deviations(
     beyond = np.maximum(way - lengths, 0.0) / 2
     # Only what is larger than this can be too large with what lies beyond the ends.
     large = asked - min(float(beyond.max()), asked / 2)
-    deviations = samples.maxima(away, large) + beyond
-    return np.where(counts == 0, between, deviations)
+    return samples.maxima(away, large) + np.where(counts > 0, beyond, 0.0)
 
 
 def _alternating(*pairs: list[NDArray[Any]]) -> NDArray[Any]:

@@ -32,8 +32,9 @@ _LARGEST_BOUND_SHARE: Final = 1 / 2
 """Share of the tolerance that the bound between the samples may take where a rough curve does not
 come down to the share that was asked for at `FINEST_LEVEL`."""
 
-BLOCK: Final = 2**16
-"""Number of samples held at a time, unless one span has more: they fit the processor's cache."""
+BLOCK: Final = 2**17
+"""Number of samples held at a time, unless one span has more. With half of them several threads
+wait for each other more often, with twice as many they do not fit the processor's cache."""
 
 _PLENTY: Final = (2**18, 2**18, *[2**15] * FINEST_LEVEL)
 """Numbers of samples up to which a curve is sampled finer than the proof needs, by one level, by
