@@ -365,12 +365,12 @@ def _deviations(
     stop: NDArray[np.float64],
     asked: float,
 ) -> NDArray[np.float64]:
-    """Proven bounds of the distance of the curve from chords between places, unless double `bounds`
-    are larger.
+    """Proven bounds of the distance of the curve from chords between places.
 
-    The distance from the line of the chord is measured. A sample that lies s beyond an end of the
-    chord makes the way through the samples longer than the chord by 2 s at least, so half of that
-    excess bounds s.
+    What is within the bound b of a step's end is left out: the curve keeps within 2 b there. The
+    distance from the line of the chord is measured. A sample that lies s beyond an end of the chord
+    makes the way through the samples longer than the chord by 2 s at least, so half of that excess
+    bounds s.
 
     Parameters
     ----------
