@@ -3,6 +3,7 @@
 import io
 import random
 import re
+from functools import cache
 
 import ezdxf
 
@@ -11,6 +12,7 @@ NASTY = [
 ]  # fmt: skip
 
 
+@cache
 def svg(seed):
     """An SVG with something of everything."""
     rng = random.Random(seed)
@@ -31,6 +33,7 @@ L{n()} {n()}"/></g>
 """.encode()
 
 
+@cache
 def dxf(seed):
     """A DXF with something of everything, as ezdxf writes it, without the parts nobody draws."""
     rng = random.Random(seed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.arcs import arcs
@@ -80,7 +80,6 @@ def dense_points(curve, level):
     return np.append(points, points[:1]) if curve.closed else points
 
 
-@settings(max_examples=60)
 @given(
     st.one_of(convergent_members(), st.sampled_from(list(PRESETS.values()))),
     st.integers(2, 8),
@@ -108,7 +107,6 @@ def test_curve_and_arcs_keep_to_each_other(parameters, n, seed, closed, toleranc
         assert chain.bulges[-1] == 0
 
 
-@settings(max_examples=60)
 @given(
     st.sampled_from(list(PRESETS.values())), st.integers(3, 8), st.integers(0, 10**6), st.booleans()
 )
@@ -121,7 +119,6 @@ def test_neighbours_have_a_common_tangent(parameters, n, seed, closed):
     assert abs(turns if closed else turns[:-1]).max() < 1e-9
 
 
-@settings(max_examples=60)
 @given(convergent_members(["mirrored"]), st.integers(0, 10**6))
 def test_smooth_is_said_only_of_what_is_smooth(parameters, seed):
     points = np.random.default_rng(seed).uniform(0, 30, size=(6, 2))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tracemalloc
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -33,7 +33,6 @@ def assert_same(mine: Blocks, others: Blocks) -> None:
 
 
 @given(convergent_members(), st.integers(2, 700), SEEDS, st.booleans())
-@settings(max_examples=60)
 def test_an_update_equals_new_blocks(
     member: Parameters, count: int, seed: int, closed: bool
 ) -> None:
@@ -48,7 +47,6 @@ def test_an_update_equals_new_blocks(
 
 
 @given(convergent_members(), convergent_members(), st.integers(2, 300), SEEDS, st.booleans())
-@settings(max_examples=40)
 def test_another_scheme_changes_the_ends_alone(
     member: Parameters, other: Parameters, count: int, seed: int, closed: bool
 ) -> None:

@@ -1,7 +1,7 @@
 import msgspec
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from core.arcs import Arcs
@@ -13,6 +13,7 @@ from core.formats.contours import Contours, bulge_places
 from core.profiles import PROFILES, Profile, named
 from core.splines import Spline
 from drawings import documents, extents, letter_f, tolerances
+from effort import costly
 
 DRAWN = {
     entity: Profile(
@@ -38,14 +39,14 @@ def numbers(shape):
     return shape.controls.reshape(-1, 2)
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, drawn, tolerances)
 def test_the_deviation_with_the_rounding_stays_within_the_tolerance(document, profile, tolerance):
     contours = Contours.of(document, profile.within(tolerance))
     assert 0.7 * 10.0**-contours.places <= contours.deviation_mm <= tolerance
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, drawn, tolerances)
 def test_the_box_is_that_of_the_exact_curves(document, profile, tolerance):
     contours = Contours.of(document, profile.within(tolerance))
@@ -57,7 +58,7 @@ def test_the_box_is_that_of_the_exact_curves(document, profile, tolerance):
     assert (width, height) == tuple((contours.box[1] - contours.box[0]).tolist())
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, drawn)
 def test_an_inch_is_25_4_millimetres_and_nothing_else(document, profile):
     profile = profile.within(0.1)
@@ -67,7 +68,7 @@ def test_an_inch_is_25_4_millimetres_and_nothing_else(document, profile):
     assert np.allclose(inch.size_mm, metric.size_mm, atol=0.2)
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, drawn)
 def test_the_corner_becomes_the_origin_and_nothing_is_turned(document, profile):
     placed, shifted = (
@@ -84,7 +85,7 @@ def test_the_corner_becomes_the_origin_and_nothing_is_turned(document, profile):
 
 
 @given(documents, drawn, tolerances)
-@settings(max_examples=30)
+@costly
 def test_all_numbers_have_the_decimals_of_the_file(document, profile, tolerance):
     contours = Contours.of(document, profile.within(tolerance))
     for contour in contours.contours:

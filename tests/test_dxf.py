@@ -7,7 +7,7 @@ import ezdxf
 import msgspec
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.document import Curve, Document
@@ -18,6 +18,7 @@ from core.formats.contours import Contours
 from core.formats.tables import Tables
 from core.profiles import Profile, named
 from drawings import documents, letter_f
+from effort import costly
 from independent import (
     chord_error,
     exact_points,
@@ -60,7 +61,7 @@ def reread(data):
     return drawing
 
 
-@settings(max_examples=25)
+@costly
 @given(documents, coarse, st.sampled_from(OUTLINES), st.sampled_from(["mm", "in"]))
 def test_ezdxf_sees_the_exact_curves_within_the_tolerance(document, tolerance, kind, unit):
     """Document, file, another reader, both ways: within what the file promises."""
@@ -80,7 +81,7 @@ def test_ezdxf_sees_the_exact_curves_within_the_tolerance(document, tolerance, k
         assert farthest(line, exact) <= reach + chord_error(exact)
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, st.sampled_from(OUTLINES))
 def test_gdal_sees_the_exact_curves(tmp_path_factory, document, kind):
     content = Contours.of(document, profile_of(kind, tolerance_mm=0.1))
@@ -105,7 +106,7 @@ def test_each_kind_of_entity_is_what_was_asked_for(kind):
     assert drawing.dxfversion == {"R2000": "AC1015", "R12": "AC1009"}[kind[1]]
 
 
-@settings(max_examples=25)
+@costly
 @given(documents)
 def test_lwpolylines_have_the_very_vertices_and_bulges(document):
     for entity in ("arcs", "polyline"):
@@ -119,7 +120,7 @@ def test_lwpolylines_have_the_very_vertices_and_bulges(document):
             assert found.closed == contour.closed
 
 
-@settings(max_examples=25)
+@costly
 @given(documents)
 def test_splines_are_clamped_with_simple_inner_knots_and_close_in_every_bit(document):
     content = Contours.of(document, profile_of(("spline", "R2000"), tolerance_mm=0.1))

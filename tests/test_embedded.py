@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import store
@@ -14,6 +14,7 @@ from core.formats.contours import Contours
 from core.formats.embedded import embedded
 from core.profiles import named
 from drawings import documents, letter_f
+from effort import costly
 
 NAMES = ("svg", "svg-polyline")
 PATH = re.compile(rb"<path .*?</path>", re.DOTALL)
@@ -29,7 +30,7 @@ def letter():
     return encoded(letter_f())
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, st.sampled_from(NAMES))
 def test_the_document_comes_back_in_every_bit(document, name):
     found = embedded(encoded(document, name))
@@ -137,7 +138,6 @@ def test_depth_is_no_danger():
     assert embedded(deep) is not None
 
 
-@settings(max_examples=60)
 @given(st.data())
 def test_no_flipped_byte_of_a_path_or_of_the_document_passes(data):
     whole = letter()

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtGui import QPainterPath
 
@@ -28,7 +28,6 @@ def dense(pieces, count=20):
     return v**3 * zero + 3 * u * v * (v * one + u * two) + u**3 * three
 
 
-@settings(max_examples=40)
 @given(
     st.tuples(st.floats(-50, 50), st.floats(-50, 50)),
     st.floats(0.01, 20),

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from chains import chain, dense, drawn, furthest, lines
@@ -11,6 +11,7 @@ from core.errors import NinepointError, NoLimitError
 from core.family import PRESETS, Parameters
 from core.fit import fit
 from core.limit import LimitCurve
+from effort import costly
 
 CALM = PRESETS["Calm"].mask
 
@@ -36,7 +37,7 @@ def measured(found, controls, mask, steps=200):
     return max(furthest(line[::3], contour), furthest(contour[::3], line))
 
 
-@settings(max_examples=15)
+@costly
 @given(
     st.sampled_from(list(PRESETS)), st.integers(1, 4), st.booleans(), st.integers(0, 10**6),
     st.sampled_from([3.0, 0.3]),

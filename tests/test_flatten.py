@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.continuity import smoothness
@@ -14,6 +14,7 @@ from core.flatten import polyline
 from core.limit import LimitCurve
 from core.samples import Sampling
 from core.shape import curvatures, tangents
+from effort import costly
 from oracles import convergent_members
 
 SHAPE = [(10, 10), (60, -8), (110, 10), (118, 45), (80, 40), (60, 70), (40, 40), (2, 45)]
@@ -62,7 +63,7 @@ def test_the_curve_keeps_within_the_stated_deviation(parameters, n, seed, closed
     assert distance_to_polyline(dense, flat.points, closed) <= flat.deviation
 
 
-@settings(max_examples=25)  # each looks among 200,000 exact points
+@costly  # each looks among 200,000 exact points
 @given(convergent_members(["translated"]), st.integers(0, 10**6), st.booleans())
 def test_vertices_lie_on_the_curve_and_no_vertex_is_repeated(parameters, seed, closed):
     points = np.random.default_rng(seed).uniform(0, 30, size=(6, 2))
@@ -152,14 +153,14 @@ def test_long_curves_are_cut_in_blocks_without_a_gap():
 def test_long_curves_keep_within_the_stated_deviation(name, tolerance):
     """Of long curves it is only asked which chords are too long, not what each one's bound is."""
     rng = np.random.default_rng(3)
-    points = np.cumsum(rng.normal(size=(4000, 2)), axis=0) * 30
+    points = np.cumsum(rng.normal(size=(2000, 2)), axis=0) * 30
     curve = LimitCurve(points, PRESETS[name].mask, True)
     assert Sampling(curve, tolerance, 1 / 3).count > 2**15
     flat = polyline(curve, tolerance)
-    dense = rng.permutation(curve.points(7))[:600]
+    dense = rng.permutation(curve.points(7))[:300]
     away = distance_to_polyline(dense, flat.points, closed=True)
     assert away <= flat.deviation <= tolerance
-    few = sum(len(polyline(part, tolerance).points) for part in parts_of(curve, 40))
+    few = sum(len(polyline(part, tolerance).points) for part in parts_of(curve, 20))
     assert len(flat.points) <= 1.12 * few
 
 

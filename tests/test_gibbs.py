@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.basis import BasicLimitFunction
@@ -19,6 +19,7 @@ from core.gibbs import (
 )
 from core.limit import LimitCurve
 from core.mask import Mask
+from effort import costly
 from oracles import convergent_members, members, refined, step_value
 from reference import ROWS
 
@@ -138,7 +139,7 @@ def first_negative_sum(mask, iterations):
     return None
 
 
-@settings(max_examples=30)
+@costly
 @given(members())
 def test_the_first_violation_is_that_of_the_definition(parameters):
     found = zeta_violation(parameters.mask, 2)

@@ -5,7 +5,7 @@ from math import log2
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import hoelder, radius
@@ -18,6 +18,7 @@ from core.hoelder import (
     quick_interval,
 )
 from core.radius import transition_matrices
+from effort import costly
 from oracles import convergent_members
 from reference import ROWS
 
@@ -90,7 +91,7 @@ def test_the_exponent_of_the_bspline_is_its_degree():
     assert found.lower == found.upper == 12
 
 
-@settings(max_examples=30)
+@costly
 @given(convergent_members(), st.integers(1, 5), st.integers(0, 31))
 def test_no_product_contradicts_the_lower_end(parameters, length, code):
     """Each product bounds the exponent from above: the proven lower end lies below all of them."""
@@ -98,7 +99,7 @@ def test_no_product_contradicts_the_lower_end(parameters, length, code):
     assert quick_interval(parameters.mask).lower <= word_bound(parameters.mask, word) + 1e-9
 
 
-@settings(max_examples=30)
+@costly
 @given(convergent_members(["translated"]), st.integers(1, 5))
 def test_no_norm_contradicts_the_upper_end(parameters, iterations):
     """Each exact norm bounds the exponent from below: ``m - 1 - log2(norm^(1/L))``."""
@@ -108,7 +109,7 @@ def test_no_norm_contradicts_the_upper_end(parameters, iterations):
     assert quick_interval(parameters.mask).upper >= bound - 1e-9
 
 
-@settings(max_examples=20)
+@costly
 @given(convergent_members())
 def test_intervals_shrink_with_the_budget(parameters):
     intervals = [branch_and_bound(parameters.mask, 0.01, n) for n in (10, 100, 1000)]
@@ -118,7 +119,7 @@ def test_intervals_shrink_with_the_budget(parameters):
         assert narrow.lower <= narrow.upper
 
 
-@settings(max_examples=15)
+@costly
 @given(convergent_members(["translated"]))
 def test_the_exact_interval_lies_within_the_quick_one(parameters):
     quick, exact = quick_interval(parameters.mask), exact_interval(parameters.mask)

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import NinepointError
@@ -202,7 +202,6 @@ tangles = st.lists(
 kerfs = st.sampled_from([0.1, 0.5, 2.0, -0.1, -0.5, -2.0])
 
 
-@settings(max_examples=80)
 @given(st.one_of(stars, tangles), kerfs)
 def test_every_point_of_an_offset_keeps_its_distance(polygon, kerf):
     try:
@@ -217,7 +216,6 @@ def test_every_point_of_an_offset_keeps_its_distance(polygon, kerf):
         assert np.abs(away(places, [polygon]) - abs(kerf)).max() <= found.deviation
 
 
-@settings(max_examples=80)
 @given(stars, kerfs)
 def test_all_that_is_near_enough_is_enclosed_and_nothing_else(polygon, kerf):
     try:

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from app.map_panel import KEPT, SIZE, MapPanel
+from app.map_panel import SIZE, MapPanel
 from app.opening import ready_document
 from app.session import Session
 from core.atlas import Quantity
@@ -101,12 +101,13 @@ def test_the_same_plane_is_not_computed_again(qtbot, panel, session):
     assert panel.chart.cross == (0.0, -1.0)
 
 
-def test_only_some_maps_are_kept(qtbot, panel, session):
+def test_only_some_maps_are_kept(qtbot, panel, session, monkeypatch):
+    monkeypatch.setattr("app.map_panel.KEPT", 2)
     panel.quantity.setCurrentIndex(2)
-    for step in range(KEPT + 3):
+    for step in range(5):
         choose(session, Parameters(0, 0, Fraction(step, 100)))
         qtbot.waitUntil(lambda: not panel.is_busy)
-    assert len(panel._kept) <= KEPT
+    assert len(panel._kept) <= 2
 
 
 def test_a_drag_is_one_named_step(qtbot, panel, session):

@@ -1,7 +1,7 @@
 """The proven distance of a curve and a route, for any places; settling brings them near."""
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from chains import chain, dense, furthest, lines
@@ -12,7 +12,6 @@ from core.route import Route
 from core.squares import SAMPLES, Squares
 
 
-@settings(max_examples=50)
 @given(
     st.sampled_from(list(PRESETS)), st.integers(3, 9), st.booleans(), st.integers(0, 10**6),
     st.sampled_from([10.0, 0.1]),

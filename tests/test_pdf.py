@@ -4,7 +4,7 @@ import zlib
 import msgspec
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.document import Curve, Document
@@ -14,6 +14,7 @@ from core.formats.contours import Contours
 from core.formats.pdf import MAX_SIDE, encode
 from core.profiles import named
 from drawings import documents, letter_f
+from effort import costly
 from independent import chord_error, exact_points, farthest
 
 MM = 25.4 / 72
@@ -78,7 +79,7 @@ def paths_in(objects):
     return found
 
 
-@settings(max_examples=12)
+@costly
 @given(
     documents, st.sampled_from([0.1, 1.0]), st.sampled_from(["cubics", "polyline"]),
     st.sampled_from(["mm", "in"]),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -16,6 +16,7 @@ from core.live import LiveCurve
 from core.picking import nearest_place, nearest_point, points_within
 from core.pyramid import CurvePyramid, PolygonPyramid
 from core.view import view
+from effort import costly
 from oracles import convergent_members
 
 SEEDS = st.integers(0, 10**6)
@@ -34,7 +35,6 @@ def outline(curve: LimitCurve) -> CurvePyramid:
 
 
 @given(st.integers(2, 3000), SEEDS, st.booleans())
-@settings(max_examples=60)
 def test_points_within_are_those_of_brute_force(count: int, seed: int, closed: bool) -> None:
     points = scattered(count, seed)
     rng = np.random.default_rng(seed + 1)
@@ -51,7 +51,6 @@ def test_points_within_are_those_of_brute_force(count: int, seed: int, closed: b
 
 
 @given(st.integers(2, 3000), SEEDS, st.booleans(), st.floats(0.1, 100))
-@settings(max_examples=60)
 def test_the_nearest_point_is_that_of_brute_force(
     count: int, seed: int, closed: bool, radius: float
 ) -> None:
@@ -72,7 +71,6 @@ def test_of_points_at_one_place_the_last_is_taken() -> None:
 
 
 @given(convergent_members(), st.integers(3, 300), SEEDS, st.booleans(), st.floats(0.5, 50))
-@settings(max_examples=60)
 def test_the_nearest_place_is_that_of_a_dense_curve(
     member: Parameters, count: int, seed: int, closed: bool, radius: float
 ) -> None:
@@ -127,7 +125,7 @@ def test_a_moved_point_is_found_where_it_went(closed: bool, index: int) -> None:
 
 
 @given(st.integers(2, 500), SEEDS, st.booleans(), st.floats(0, 7))
-@settings(max_examples=30)
+@costly
 def test_points_and_places_are_found_where_the_polygon_lies(
     count: int, seed: int, closed: bool, turn: float
 ) -> None:

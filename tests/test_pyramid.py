@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -16,6 +16,7 @@ from core.family import Parameters
 from core.live import LiveCurve
 from core.mask import Mask
 from core.pyramid import CurvePyramid, PolygonPyramid, Pyramid
+from effort import costly
 from oracles import convergent_members
 
 SEEDS = st.integers(0, 10**6)
@@ -48,7 +49,6 @@ def check(pyramid: Pyramid, dense: NDArray[np.float64], level: int) -> None:
 
 
 @given(convergent_members(), st.integers(2, 700), SEEDS, st.booleans())
-@settings(max_examples=40)
 def test_no_node_of_a_curve_promises_too_much(
     member: Parameters, count: int, seed: int, closed: bool
 ) -> None:
@@ -63,7 +63,7 @@ def test_no_node_of_a_curve_promises_too_much(
 
 
 @given(convergent_members(["translated"]), st.integers(2, 700), SEEDS, st.booleans())
-@settings(max_examples=20)
+@costly
 def test_no_node_of_a_polygon_promises_too_much(
     member: Parameters, count: int, seed: int, closed: bool
 ) -> None:

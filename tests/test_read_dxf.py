@@ -7,11 +7,12 @@ import pytest
 from ezdxf import path as ezpath
 from ezdxf.disassemble import recursive_decompose
 from ezdxf.math import Matrix44
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import FileError
 from core.formats import budget, dxf_tags, read_dxf
+from effort import costly
 
 NAME = read_dxf.Path("drawing.dxf")
 
@@ -197,7 +198,7 @@ def test_bulges_are_the_arcs_that_ezdxf_makes_of_them(bulges, closed, seed):
     assert trace.closed == closed
 
 
-@settings(max_examples=12)
+@costly
 @given(
     st.lists(
         st.tuples(

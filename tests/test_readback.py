@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.formats import readback
@@ -10,7 +10,6 @@ from independent import farthest
 seeds = st.integers(0, 2**16)
 
 
-@settings(max_examples=60)
 @given(seeds, st.integers(2, 60), st.integers(1, 80), st.floats(0.01, 3))
 def test_points_keep_near_exactly_if_their_distance_says_so(seed, size, count, reach):
     generator = np.random.default_rng(seed)
@@ -65,7 +64,6 @@ def test_closed_arcs_return_to_their_start_and_pieces_are_counted():
         assert arcs_read(square, bulges, False, "", 0.01).count == 3
 
 
-@settings(max_examples=40)
 @given(seeds, st.integers(1, 5), st.floats(1e-3, 1.0))
 def test_cubics_leave_their_points_by_no_more_than_is_said(seed, count, fine):
     controls = np.random.default_rng(seed).normal(size=(count, 4, 2))

@@ -5,13 +5,14 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from core.continuity import Convergence
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
 from core.report import as_json, report
 from core.shape import tangents
+from effort import costly
 from oracles import members
 from reference import ROWS
 
@@ -37,7 +38,7 @@ def test_reference_rows(row):
     assert low - 5.1e-7 <= row.overshoot <= high + 5.1e-7
 
 
-@settings(max_examples=15)
+@costly
 @given(members())
 def test_every_member_gives_valid_json_with_exact_fractions(parameters):
     data = json.loads(json.dumps(as_json(report(parameters)), allow_nan=False))

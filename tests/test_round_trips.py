@@ -9,7 +9,7 @@ from dataclasses import fields
 import msgspec
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from core.document import Curve, Document
@@ -18,6 +18,7 @@ from core.formats import PROFILES, Profile, export, open_document, prepare
 from core.formats.foreign import read_sketch
 from core.formats.svg import page
 from drawings import coordinates, documents, letter_f
+from effort import costly
 from independent import (
     chord_error,
     exact_points,
@@ -92,7 +93,7 @@ def assert_same(found, document):
         assert (one.closed, one.name) == (other.closed, other.name)
 
 
-@settings(max_examples=30)
+@costly
 @given(wild, st.sampled_from(SVGS), st.sampled_from(UNITS), st.sampled_from([1.0, 50.0]))
 def test_a_document_comes_back_from_its_svg_in_every_field(folder, document, name, unit, tolerance):
     # Something has to be there to be drawn.
@@ -104,7 +105,7 @@ def test_a_document_comes_back_from_its_svg_in_every_field(folder, document, nam
     assert_same(read_sketch(path).document, document)
 
 
-@settings(max_examples=30)
+@costly
 @given(
     documents,
     st.sampled_from(sorted(OUTLINES)),
@@ -159,7 +160,7 @@ def dense(trace):
     return points.transpose(1, 0, 2).reshape(-1, 2)
 
 
-@settings(max_examples=30)
+@costly
 @given(
     st.lists(st.tuples(coordinates, coordinates), min_size=3, max_size=12, unique=True),
     st.booleans(),

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
@@ -9,6 +9,7 @@ from core.errors import NinepointError
 from core.family import PRESETS, Parameters
 from core.splines import DEGREE, pieces, spline
 from drawings import F_POINTS
+from effort import costly
 from independent import chord_error, exact_points, farthest
 
 SHAPE = [(10, 10), (60, -8), (110, 10), (118, 45), (80, 40), (60, 70), (40, 40), (2, 45)]
@@ -29,7 +30,7 @@ def dense(found, parts=128):
     return oracle(found)(np.append(t, found.knots[-1]))
 
 
-@settings(max_examples=30)
+@costly
 @given(polygons, st.booleans(), presets, st.sampled_from([0.02, 0.1, 1.0]))
 def test_the_deviation_is_a_bound_both_ways_and_within_the_tolerance(points, closed, p, tolerance):
     curve = Curve(points, closed)

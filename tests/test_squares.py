@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.family import PRESETS
 from core.limit import LimitCurve
 from core.pull import control_weights
 from core.squares import LEVEL, SAMPLES, Squares
+from effort import costly
 
 SCHEMES = ["Lagrange", "Calm", "Tight", "Lean"]
 
@@ -43,7 +44,7 @@ def test_samples_are_those_of_the_curve(name, count, closed, seed):
     )
 
 
-@settings(max_examples=30)
+@costly
 @given(
     st.sampled_from(SCHEMES), st.sampled_from([3, 4, 9, 30, 75]), st.booleans(),
     st.integers(0, 10**6),

@@ -4,7 +4,7 @@ import xml.etree.ElementTree as ET
 import msgspec
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.document import Curve, Document
@@ -12,6 +12,7 @@ from core.formats import svg
 from core.formats.contours import Contours
 from core.profiles import named
 from drawings import documents, extents, letter_f
+from effort import costly
 from independent import (
     chord_error,
     exact_points,
@@ -62,7 +63,7 @@ def page(root, unit="mm"):
     return np.array([float(width), float(height)])
 
 
-@settings(max_examples=25)
+@costly
 @given(documents, coarse, names, st.sampled_from(["mm", "in"]))
 def test_svgpathtools_sees_the_exact_curves_within_the_tolerance(document, tolerance, name, unit):
     """Document, file, another reader, both ways: within what the file promises."""
@@ -79,7 +80,7 @@ def test_svgpathtools_sees_the_exact_curves_within_the_tolerance(document, toler
         assert farthest(line, exact) <= reach + chord_error(exact)
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, coarse, names)
 def test_the_page_is_the_box_of_the_contours(document, tolerance, name):
     content = contours_of(document, tolerance, name)

@@ -6,7 +6,7 @@ import math
 import msgspec
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.document import Curve, Document
@@ -17,6 +17,7 @@ from core.formats.tables import CONTROL_COLUMNS, LIMIT_COLUMNS, Tables, cell, li
 from core.profiles import Profile
 from core.shape import curvatures, tangents
 from drawings import documents, letter_f
+from effort import costly
 from independent import farthest
 
 ROUGH = Parameters("3/10", "-1/2", "-1/3", "mirrored")
@@ -57,7 +58,7 @@ def test_control_points_of_one_curve_open_again_as_they_were(tmp_path, form, ind
     assert again.closed == curve.closed
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, st.sampled_from([0.1, 1.0]))
 def test_the_polygon_through_limit_points_keeps_within_the_tolerance(document, tolerance):
     content = Tables.of(document, profile_of(tolerance_mm=tolerance))
@@ -87,7 +88,7 @@ def test_what_is_not_proven_stays_empty_and_is_told():
     assert smooth.notes == () or "curvature" in smooth.notes[0]
 
 
-@settings(max_examples=30)
+@costly
 @given(documents, st.sampled_from(["control points", "limit points"]))
 def test_json_holds_the_same_numbers_and_the_names(document, entity):
     content = Tables.of(document, profile_of("json", entity, tolerance_mm=1.0))

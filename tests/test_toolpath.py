@@ -3,7 +3,7 @@
 import msgspec
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from core.document import Curve, Document
 from core.errors import FileError, NinepointError
@@ -12,6 +12,7 @@ from core.formats.contours import Contours
 from core.formats.verify import verify
 from core.profiles import PROFILES, named
 from drawings import documents, letter_f
+from effort import costly
 
 PLATE = Curve([(0, 0), (100, 0), (100, 60), (0, 60)], name="Plate")
 HOLE = Curve([(40, 20), (60, 20), (60, 40), (40, 40)], name="Hole")
@@ -22,7 +23,7 @@ def cut(*curves, kerf=1.0, name="laser", **fields):
     return Contours.of(Document(curves), profile)
 
 
-@settings(max_examples=25)
+@costly
 @given(documents)
 def test_files_of_any_closed_drawing_read_back_as_its_offset(tmp_path_factory, document):
     folder = tmp_path_factory.mktemp("cut")

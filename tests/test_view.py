@@ -6,7 +6,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -87,7 +87,6 @@ def test_the_true_error_over_whole_blocks_of_spans(count: int, zoom: float) -> N
 
 
 @given(convergent_members(), st.integers(2, 300), st.integers(0, 999), st.booleans())
-@settings(max_examples=60)
 def test_nothing_seen_is_missed(member: Parameters, count: int, seed: int, closed: bool) -> None:
     rng = np.random.default_rng(seed)
     curve = LimitCurve(rng.normal(0, 100, (count, 2)), member.mask, closed)
