@@ -2,11 +2,11 @@
 
 Notes
 -----
-From each cut the longest piece that fits is sought, by growing and bisecting its length; no other
-choice needs fewer pieces, as long as a part of a piece that fits, fits (which is nearly so). All
-lanes, equal parts of a long row, go ahead in step, so that NumPy has work for many pieces at once.
-While searching, a piece is looked at in `_GLANCES` places; in the end each is looked at in all of
-its samples, and halved if it does not fit.
+From each cut the longest piece that fits is sought, by growing its length and closing in on it; no
+other choice needs fewer pieces, as long as a part of a piece that fits, fits (which is nearly so).
+All lanes, equal parts of a long row, go ahead in step, so that NumPy has work for many pieces at
+once. While searching, a piece is looked at in `_GLANCES` places; in the end each is looked at in
+all of its samples, and halved if it does not fit.
 """
 
 from __future__ import annotations
@@ -27,6 +27,9 @@ _GROWTH: Final = 1.5
 
 _RESOLUTION: Final = 64
 """A search ends when the length is known to one part in so many."""
+
+_TOGETHER: Final = 16
+"""Lengths that are tried at once, in all lanes together: so few take little longer than one."""
 
 _LANE: Final = 2**11
 """Steps of a lane at first."""
@@ -130,24 +133,31 @@ def _longest(
     guess: NDArray[np.intp],
 ) -> NDArray[np.intp]:
     """Length of the longest piece from each ``first`` that fits, at least 1, at most ``room``."""
-    fits = np.zeros_like(first)
-    fails = room + 1
-    trial = np.minimum(np.maximum(guess, 1), room)
+    fits, fails = np.where(room == 1, 1, 0), room + 1
+    tries = max(_TOGETHER // len(first), 1)
     open_ = np.flatnonzero(room > 1)
-    fits[room == 1] = 1
+    powers = _GROWTH ** np.arange(-(tries // 2), tries - tries // 2)
+    trial = (guess[open_, None] * powers).astype(np.intp)
     while len(open_):
-        begin, size = first[open_], trial[open_]
+        most = room[open_, None]
+        trial = np.minimum(np.maximum(trial, 1), most)
+        begin = np.repeat(first[open_], tries)
+        size = trial.ravel()
         places = begin[:, None] + size[:, None] * np.arange(_GLANCES + 1) // _GLANCES
         errors, _ = fit.solve(begin, begin + size, places, whole=False)
-        good = errors <= admitted
-        fits[open_[good]] = size[good]
-        fails[open_[~good]] = size[~good]
-        low, high = fits[open_], fails[open_]
-        grown = np.maximum((low * _GROWTH).astype(np.intp), low + 1)
-        trial[open_] = np.where(high > room[open_], np.minimum(grown, high - 1), (low + high) // 2)
-        untried = (high > room[open_]) & (low < room[open_])
-        going = untried | (high - low > np.maximum(low // _RESOLUTION, 1))
-        open_ = open_[going]
+        good = (errors <= admitted).reshape(trial.shape)
+        # The longest that fits counts, even if a shorter one does not.
+        low = np.maximum(np.where(good, trial, 0).max(axis=1), fits[open_])
+        is_too_long = ~good & (trial > low[:, None])
+        high = np.minimum(np.where(is_too_long, trial, most + 1).min(axis=1), fails[open_])
+        fits[open_], fails[open_] = low, high
+        is_growing = (high > room[open_]) & (low < room[open_])
+        going = is_growing | (high - low > np.maximum(low // _RESOLUTION, 1))
+        open_, low, high = open_[going], low[going, None], high[going, None]
+        order = np.arange(1, tries + 1)
+        grown = np.maximum((low * _GROWTH**order).astype(np.intp), low + order)
+        between = low + (high - low) * order // (tries + 1)
+        trial = np.where(is_growing[going, None], grown, between)
     return np.maximum(fits, 1)
 
 

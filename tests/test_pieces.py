@@ -59,6 +59,16 @@ def test_steps_that_cannot_fit_stand_alone():
     assert cuts[alone + 1].tolist() == [51, 52, 201]
 
 
+def test_the_longest_piece_counts_even_if_a_shorter_one_does_not_fit():
+    class Gapped(Lengths):
+        def solve(self, first, last, places, whole):
+            errors, rows = super().solve(first, last, places, whole)
+            return np.where((last - first) // 10 == 3, 2.0, errors), rows
+
+    cuts, _, _ = fitted(100, Gapped(np.full(100, 0.01)), 1.0, 100)
+    assert cuts.tolist() == [0, 100]
+
+
 def test_what_a_glance_misses_is_halved_until_it_fits():
     class Blind(Lengths):
         def solve(self, first, last, places, whole):
