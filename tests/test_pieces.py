@@ -65,7 +65,7 @@ def test_the_longest_piece_counts_even_if_a_shorter_one_does_not_fit():
             errors, rows = super().solve(first, last, places, whole)
             return np.where((last - first) // 10 == 3, 2.0, errors), rows
 
-    cuts, _, _ = fitted(100, Gapped(np.full(100, 0.01)), 1.0, 100)
+    cuts, _, _ = fitted(100, Gapped(np.full(100, 0.009)), 1.0, 100)
     assert cuts.tolist() == [0, 100]
 
 
