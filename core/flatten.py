@@ -40,10 +40,13 @@ time is saved, but there are curves that take a fifth more chords. Its double is
 tolerance anyway."""
 
 _FINER: Final = 2
-"""Levels by which the places that cuts fall on are finer than the samples, at least."""
+"""Levels by which the places that cuts fall on are finer than the samples, mostly at least."""
 
 _FINE_LEVEL: Final = 10
 """Dyadic level of these places where samples are coarse: there is a table for all coarser ones."""
+
+_FINE_ENOUGH: Final = 128
+"""Samples to a chord from which on samples are places enough: finer tables would be made first."""
 
 _EPS: Final = float(np.finfo(float).eps)
 
@@ -132,7 +135,7 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
     def flat(part: tuple[int, int]) -> tuple[NDArray[np.float64], float]:
         samples = sampling.block(*part)
         fewest = FEWEST_CLOSED if curve.closed and not samples.first_span else 1
-        run = _Run(sampling, samples)
+        run = _Run(sampling, samples, tolerance if few else _AIM * tolerance)
         cuts = _cuts(run, tolerance, fewest, few)
         return cuts.points[:, :-1].T, max(float(cuts.deviations.max()), 2 * samples.bound)
 
@@ -191,7 +194,7 @@ class _Cuts:
 def _cuts(run: _Run, admitted: float, fewest: int, few: bool) -> _Cuts:
     """Cuts of a block, few chords that keep within what is admitted."""
     fixed = _fixed(run, admitted)
-    density = _density(run, admitted * (1.0 if few else _AIM))
+    density = _Density(run.shares, run.finer)
     many = len(run.steps) > _MANY * density.sums[-1]
     aims = _FINE_AIMS if few else (_AIM,) if many else ()
     asked = 0.0 if aims else admitted
@@ -218,29 +221,48 @@ class _Run:
         numbers keep their digits. Shape (m + 1,).
     step_x, step_y, steps
         From each of them to the next, and how far; shape (m,).
-    span_bounds, bounds
-        How far the curve may leave the chords of steps: for each span, and for each step.
+    shares
+        Chords that each step asks for, shape (m,).
     margins
-        The larger one of the bounds before and after each sample, shape (m + 1,).
+        How far the curve may leave the chords of the steps before and after each sample, shape
+        (m + 1,).
     finer
         There are ``2^finer`` places in a step: place ``i 2^finer`` is sample i.
     """
 
-    def __init__(self, sampling: Sampling, samples: Samples) -> None:
+    def __init__(self, sampling: Sampling, samples: Samples, aimed: float) -> None:
         self._sampling, self._samples = sampling, samples
         self.origin = np.array([[samples.x[0]], [samples.y[0]]])
         self.x, self.y = samples.x - samples.x[0], samples.y - samples.y[0]
         self.step_x, self.step_y = self.x[1:] - self.x[:-1], self.y[1:] - self.y[:-1]
         self.steps = _lengths(self.step_x, self.step_y)
-        self.span_bounds = samples.bounds
-        self.bounds = self.stepwise(samples.bounds)
-        self.margins = np.append(self.bounds, self.bounds[-1])
-        np.maximum(self.margins[1:-1], self.bounds[:-1], out=self.margins[1:-1])
-        self.finer = max(_FINE_LEVEL - int(samples.levels.max()), _FINER)
+        bounds = self._stepwise(samples.bounds)
+        self.margins = np.append(bounds, bounds[-1])
+        np.maximum(self.margins[1:-1], bounds[:-1], out=self.margins[1:-1])
+        self.shares = self._shares(aimed)
+        are_enough = len(self.steps) >= _FINE_ENOUGH * self.shares.sum()
+        finer = _FINE_LEVEL - int(samples.levels.max())
+        self.finer = max(finer, 0 if are_enough else _FINER)
 
-    def stepwise(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _stepwise(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """The value of each span for each of its steps."""
         return np.repeat(values, 1 << self._samples.levels)
+
+    def _shares(self, aimed: float) -> NDArray[np.float64]:
+        """Chords that steps ask for, nothing at the first one.
+
+        With steps of length s the cross product of two neighbours is ``k s^3``, hence the formula.
+        """
+        cross = self.step_x[:-1] * self.step_y[1:]
+        cross -= self.step_x[1:] * self.step_y[:-1]
+        np.abs(cross, out=cross)
+        both = self.steps[:-1] + self.steps[1:]
+        # What lies between the samples takes its part of what is aimed at.
+        both *= self._stepwise(4 * (aimed - self._samples.bounds))[1:]
+        both += _TINY
+        shares = np.zeros(len(self.steps))
+        np.divide(cross, both, out=shares[1:])
+        return np.sqrt(shares, out=shares)
 
     def at(self, places: NDArray[np.intp]) -> NDArray[np.float64]:
         """Where the curve is at places in ascending order, shape (2, k)."""
@@ -338,23 +360,6 @@ def _fixed(run: _Run, admitted: float) -> NDArray[np.intp]:
         beyond = np.abs(values[[0, -1]][:, None] - values[extremes]).min(axis=0)
         chosen.append(extremes[beyond > _EXTREME_SHARE * admitted])
     return np.unique(np.concatenate(chosen))
-
-
-def _density(run: _Run, admitted: float) -> _Density:
-    """Number of chords that steps ask for; nothing at the first one.
-
-    With steps of length s the cross product of two neighbours is ``k s^3``, hence the formula.
-    """
-    cross = run.step_x[:-1] * run.step_y[1:]
-    cross -= run.step_x[1:] * run.step_y[:-1]
-    np.abs(cross, out=cross)
-    both = run.steps[:-1] + run.steps[1:]
-    # What lies between the samples takes its part of what is admitted.
-    both *= run.stepwise(4 * (admitted - run.span_bounds))[1:]
-    both += _TINY
-    shares = np.zeros(len(run.steps))
-    np.divide(cross, both, out=shares[1:])
-    return _Density(np.sqrt(shares, out=shares), run.finer)
 
 
 def _deviations(
