@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.arcs import arcs
+from core.bends import ChordBounds
 from core.continuity import smoothness
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
@@ -94,14 +95,16 @@ def test_curve_and_arcs_keep_to_each_other(parameters, n, seed, closed, toleranc
         chain = arcs(curve, tolerance)
     except NinepointError:
         # Refused as too rough, which nearly continuous curves only are.
-        assert smoothness(parameters.mask).exponent.lower < 3 / 4
+        assert smoothness(parameters.mask).exponent.lower < 4 / 5
         return
     assert chain.closed == closed
     assert chain.deviation <= tolerance
     assert len(chain.bulges) == len(chain.points)
     dense = dense_points(curve, 9)
     assert furthest_from(chain, dense) <= chain.deviation
-    assert furthest_from_curve(drawn(chain, 20).ravel(), dense) <= chain.deviation + 1e-3
+    # What a polygon of points leaves out of a rough curve is more than of a smooth one.
+    polygon_error = ChordBounds(curve).at(9).max()
+    assert furthest_from_curve(drawn(chain, 20).ravel(), dense) <= chain.deviation + polygon_error
     if not closed:
         assert chain.points[[0, -1]].tolist() == points[[0, -1]].tolist()
         assert chain.bulges[-1] == 0

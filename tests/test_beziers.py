@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.bends import ChordBounds
 from core.beziers import beziers
 from core.continuity import smoothness
 from core.errors import NinepointError
@@ -75,7 +76,7 @@ def test_curve_and_cubics_keep_to_each_other(parameters, n, seed, closed, tolera
         chain = beziers(curve, tolerance)
     except NinepointError:
         # Refused as too rough, which nearly continuous curves only are.
-        assert smoothness(parameters.mask).exponent.lower < 3 / 4
+        assert smoothness(parameters.mask).exponent.lower < 4 / 5
         return
     assert chain.closed == closed
     assert chain.deviation <= tolerance
@@ -83,7 +84,7 @@ def test_curve_and_cubics_keep_to_each_other(parameters, n, seed, closed, tolera
     dense, line = dense_points(curve, 9), drawn(chain)
     if len(chain.controls) < 300:
         assert furthest(dense, line) <= chain.deviation + drawing_error(chain)
-        assert furthest(line[::10], dense) <= chain.deviation + 1e-3
+        assert furthest(line[::10], dense) <= chain.deviation + ChordBounds(curve).at(9).max()
     if not closed:
         assert chain.controls[0, 0].tolist() == points[0].tolist()
         assert chain.controls[-1, 3].tolist() == points[-1].tolist()
