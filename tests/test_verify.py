@@ -118,7 +118,7 @@ def test_a_promise_that_is_not_kept_is_found():
 
 
 def test_a_contour_that_was_cut_is_joined_again(monkeypatch):
-    monkeypatch.setattr(svg, "MAX_PATH_BYTES", 700)
+    monkeypatch.setattr(svg, "MAX_PATH_BYTES", 400)
     for name in ("svg", "svg-polyline"):
         data, content = made(name)
         assert max(svg.path_counts(content)) > 1
