@@ -91,6 +91,17 @@ class BasicLimitFunction:
             raise ValueError(f"{x} is not dyadic")
         return _exact_value(self, x)
 
+    def derived(self, order: int) -> BasicLimitFunction:
+        """Basic limit function of the scheme ``2^order a(z) / (1+z)^order`` (theory, section 6).
+
+        The derivative of a curve of phi is the curve of this function whose control points are the
+        differences ``p_i - p_(i-1)`` of that order, at the same parameters; so its own derivative
+        of that order is the backward difference of it.
+        """
+        return BasicLimitFunction(
+            self.mask.divided(order).scaled(Fraction(2**order)), self.is_exact
+        )
+
     def limit_stencil(self, t: Fraction = Fraction(0)) -> Stencil:
         """Exact weights of the control points ``p_j`` in the curve point ``C(t)``, t dyadic."""
         first = (t + HALF - self.mask.end).__floor__() + 1
@@ -104,7 +115,7 @@ class BasicLimitFunction:
         ``phi'(x) = psi(x) - psi(x - 1)`` with the basic limit function psi of the scheme
         ``2 a(z) / (1+z)`` (theory, section 6). The scheme must be C^1.
         """
-        psi = BasicLimitFunction(self.mask.divided().scaled(Fraction(2)))
+        psi = BasicLimitFunction(self.mask).derived(1)
         first = (t + HALF - self.mask.end).__floor__() + 1
         last = (t + HALF - self.mask.start).__ceil__() - 1
         places = {j: t + HALF - j for j in range(first, last + 1)}
@@ -304,10 +315,9 @@ def _float_values(phi: BasicLimitFunction, level: int) -> NDArray[np.float64]:
 @lru_cache(maxsize=MEMORY)
 def _derivative(phi: BasicLimitFunction, level: int, order: int) -> NDArray[np.float64]:
     """Backward differences of the basic limit function of the divided-difference scheme."""
-    divided = phi.mask.divided(order).scaled(Fraction(2**order))
     step = 2**level
     values = np.zeros((phi.mask.end - phi.mask.start) * step + 1)
-    coarse = BasicLimitFunction(divided, phi.is_exact).values(level)
+    coarse = phi.derived(order).values(level)
     values[: len(coarse)] = coarse
     for _ in range(order):
         values[step:] -= values[:-step].copy()

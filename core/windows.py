@@ -92,3 +92,16 @@ def running_max(values: NDArray[np.float64], size: int) -> NDArray[np.float64]:
         values = np.maximum(values[..., :-step], values[..., step:])
         reach += step
     return values
+
+
+def maxima_between(
+    values: NDArray[np.float64], first: NDArray[np.intp], last: NDArray[np.intp]
+) -> NDArray[np.float64]:
+    """``out[i] = max(values[first[i] : last[i] + 1])``, soon where these are one or two entries."""
+    found: NDArray[np.float64]
+    found = np.maximum(values.take(first, mode="clip"), values.take(last, mode="clip"))
+    longer = np.flatnonzero(last - first > 1)
+    if len(longer):
+        ends = np.stack([first[longer], last[longer]], axis=1).ravel()
+        found[longer] = np.maximum(found[longer], np.maximum.reduceat(values, ends)[::2])
+    return found

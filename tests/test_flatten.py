@@ -1,5 +1,6 @@
 """Polylines within a tolerance, and the proof of their deviation."""
 
+from contextlib import contextmanager
 from itertools import pairwise
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.bent import Bending
 from core.continuity import smoothness
 from core.errors import NinepointError
 from core.family import PRESETS, Parameters
@@ -33,6 +35,18 @@ def distance_to_polyline(points, vertices, closed):
     return nearest.max()
 
 
+@contextmanager
+def cut_by(way):
+    """Second derivatives are not looked at, if all is to be measured."""
+    with pytest.MonkeyPatch.context() as patch:
+        if way == "samples":
+            patch.setattr(Bending, "of", lambda curve, tolerance: None)
+        yield
+
+
+ways = st.sampled_from(["second derivatives", "samples"])
+
+
 def parts_of(curve, count):
     """Open curves that are about as long together as a closed one, each of few samples."""
     size = len(curve.control_points) // count
@@ -47,12 +61,16 @@ def parts_of(curve, count):
     st.integers(0, 10**6),
     st.booleans(),
     st.sampled_from([1.0, 0.1, 0.01]),
+    ways,
 )
-def test_the_curve_keeps_within_the_stated_deviation(parameters, n, seed, closed, tolerance):
+def test_the_curve_keeps_within_the_stated_deviation(
+    parameters, n, seed, closed, tolerance, way
+):
     points = np.random.default_rng(seed).uniform(0, 30, size=(n, 2))
     curve = LimitCurve(points, parameters.mask, closed)
     try:
-        flat = polyline(curve, tolerance)
+        with cut_by(way):
+            flat = polyline(curve, tolerance)
     except NinepointError:
         # Refused as too rough, which nearly continuous curves only are.
         assert smoothness(parameters.mask).exponent.lower < 4 / 5
@@ -98,10 +116,12 @@ def test_about_as_few_vertices_as_the_curvature_asks_for(name):
         assert len(polyline(curve, tolerance).points) <= 1.06 * needed + 1
 
 
-def test_a_straight_polygon_takes_one_chord():
+@pytest.mark.parametrize("way", ["second derivatives", "samples"])
+def test_a_straight_polygon_takes_one_chord(way):
     for count in (2, 6, 1000):
         straight = np.outer(np.arange(count) ** 1.5, [3.0, 4.0])
-        flat = polyline(LimitCurve(straight, PRESETS["Calm"].mask, False), 0.01)
+        with cut_by(way):
+            flat = polyline(LimitCurve(straight, PRESETS["Calm"].mask, False), 0.01)
         assert flat.points.tolist() == [straight[0].tolist(), straight[-1].tolist()]
 
 
@@ -114,9 +134,11 @@ def test_a_straight_run_in_a_curve_takes_one_chord():
     assert (lengths > 500).sum() >= 3
 
 
-def test_a_curve_that_turns_back_on_a_line_keeps_its_turning_points():
+@pytest.mark.parametrize("way", ["second derivatives", "samples"])
+def test_a_curve_that_turns_back_on_a_line_keeps_its_turning_points(way):
     curve = LimitCurve([(0, 0), (30, 0), (10, 0), (40, 0)], PRESETS["Calm"].mask, False)
-    flat = polyline(curve, 0.01)
+    with cut_by(way):
+        flat = polyline(curve, 0.01)
     assert len(flat.points) <= 8
     x = curve.points(10)[:, 0]
     for turn in x[1:-1][(np.diff(x)[1:] > 0) != (np.diff(x)[:-1] > 0)]:
@@ -150,18 +172,30 @@ def test_long_curves_are_cut_in_blocks_without_a_gap():
 
 @pytest.mark.parametrize("name", ["Tight", "B-spline"])
 @pytest.mark.parametrize("tolerance", [0.02, 1.0])
-def test_long_curves_keep_within_the_stated_deviation(name, tolerance):
+@pytest.mark.parametrize("way", ["second derivatives", "samples"])
+def test_long_curves_keep_within_the_stated_deviation(name, tolerance, way):
     """Of long curves it is only asked which chords are too long, not what each one's bound is."""
     rng = np.random.default_rng(3)
     points = np.cumsum(rng.normal(size=(2000, 2)), axis=0) * 30
     curve = LimitCurve(points, PRESETS[name].mask, True)
     assert Sampling(curve, tolerance, 1 / 3).count > 2**15
-    flat = polyline(curve, tolerance)
+    with cut_by(way):
+        flat = polyline(curve, tolerance)
+        few = sum(len(polyline(part, tolerance).points) for part in parts_of(curve, 20))
     dense = rng.permutation(curve.points(7))[:300]
     away = distance_to_polyline(dense, flat.points, closed=True)
     assert away <= flat.deviation <= tolerance
-    few = sum(len(polyline(part, tolerance).points) for part in parts_of(curve, 20))
     assert len(flat.points) <= 1.12 * few
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_second_derivatives_take_no_more_vertices_than_samples(name):
+    curve = LimitCurve(SHAPE, PRESETS[name].mask, True)
+    for tolerance in (1.0, 0.1, 0.01, 0.001):
+        bent = polyline(curve, tolerance)
+        with cut_by("samples"):
+            measured = polyline(curve, tolerance)
+        assert len(bent.points) <= 1.02 * len(measured.points) + 1
 
 
 def test_points_far_apart_and_many_at_one_place():
@@ -190,9 +224,11 @@ def test_huge_offsets_do_not_spoil_the_bound():
 
 
 @pytest.mark.parametrize("name", PRESETS)
-def test_the_polyline_has_the_size_of_the_curve(name):
+@pytest.mark.parametrize("way", ["second derivatives", "samples"])
+def test_the_polyline_has_the_size_of_the_curve(name, way):
     curve = LimitCurve(SHAPE, PRESETS[name].mask, True)
-    flat, dense = polyline(curve, 0.1), curve.points(12)
+    with cut_by(way):
+        flat, dense = polyline(curve, 0.1), curve.points(12)
     np.testing.assert_allclose(flat.points.min(axis=0), dense.min(axis=0), atol=1e-4)
     np.testing.assert_allclose(flat.points.max(axis=0), dense.max(axis=0), atol=1e-4)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core.windows import product, running_max, scattered, windows_of
+from core.windows import maxima_between, product, running_max, scattered, windows_of
 
 
 @pytest.mark.parametrize("count", [1, 7, 5000])
@@ -35,3 +35,13 @@ def test_the_running_maximum_is_that_of_each_window(size):
     values = np.random.default_rng(size).normal(size=(2, 30))
     expected = [[max(row[k : k + size]) for k in range(31 - size)] for row in values]
     np.testing.assert_array_equal(running_max(values, size), expected)
+
+
+def test_maxima_between_are_those_of_each_run():
+    rng = np.random.default_rng(4)
+    values = rng.normal(size=60)
+    first = rng.integers(0, 60, 300)
+    last = np.minimum(first + rng.integers(0, 6, 300), 59)
+    last[::50] = 59
+    expected = [max(values[begin : end + 1]) for begin, end in zip(first, last, strict=True)]
+    np.testing.assert_array_equal(maxima_between(values, first, last), expected)
