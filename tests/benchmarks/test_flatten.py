@@ -30,12 +30,12 @@ def coast(count: int) -> LimitCurve:
 
 def test_polyline_of_a_million_vertices(comparison: Comparison) -> None:
     curve = coast(100_000)
-    found = polyline(curve, 0.0036)
+    found = polyline(curve, 0.0031)
     assert len(found.points) > 1_000_000
-    assert found.deviation <= 0.0036
+    assert found.deviation <= 0.0031
     other = found.points.copy()
     times = comparison.seconds(
-        {"polyline": lambda: polyline(curve, 0.0036), "copy": other.copy}
+        {"polyline": lambda: polyline(curve, 0.0031), "copy": other.copy}
     )
     seconds = times["polyline"] * 1e6 / len(found.points)
     comparison.row("polyline of a million vertices, proven", f"{seconds:.2f} s", "0.3 s")
