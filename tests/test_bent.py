@@ -49,7 +49,7 @@ def test_bounds_of_chords_that_fit_are_hardly_larger_than_their_deviations(seed,
     places = stretch.density().cuts(stretch.fixed(), 3)
     chords, found = list(pairwise(places))[::20], bounds(stretch, places)[::20]
     seen = [deviation(stretch, *chord) for chord in chords]
-    assert np.median(seen / found) >= 0.95
+    assert np.median(seen / found) >= 0.92
 
 
 @pytest.mark.parametrize("name", ["B-spline", "Tight"])
