@@ -14,6 +14,7 @@ from app.camera import Camera
 from app.dirt import dirt, region_of
 from app.grid import Background, ruler_font, view_step
 from app.guard import guarded
+from app.handover import Handover
 from app.picture import HINT_ROOM_PX, Picture, Setting
 from app.pixel_box import box_of
 from app.rulers import Rulers
@@ -71,6 +72,7 @@ class Sheet(QWidget):
         self._background = Background()
         self._rulers = Rulers(self)
         self._picture = Picture()
+        self._handover = Handover(self)
         self._setting: tuple[tuple[object, ...], Setting] | None = None
         self._ground: tuple[object, ...] = ()
         self._is_stale = True
@@ -198,6 +200,7 @@ class Sheet(QWidget):
                 painter.setRenderHint(_SMOOTH, False)
                 painter.setPen(QPen(color(setting.palette.accent), 1.0))
                 painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+        self._handover.follow(whole.topLeft())
 
     @guarded
     def resizeEvent(self, event: QResizeEvent) -> None:

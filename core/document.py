@@ -240,8 +240,8 @@ class Curve:
         if moves.placed is not IDENTITY:
             positions = moves.placed(positions)
         if len(moves.indices):
-            found = np.minimum(np.searchsorted(moves.indices, chosen), len(moves.indices) - 1)
-            moved = moves.indices[found] == chosen
+            found = moves.indices.searchsorted(chosen)
+            moved = moves.indices.take(found, mode="clip") == chosen
             positions[moved] = moves.positions[found[moved]]
         return positions
 
