@@ -28,6 +28,9 @@ Rows = list[Row]
 SECONDS = 0.5
 """Time that a comparison takes, about, unless its candidates are slow."""
 
+TURN = 1e-3
+"""Time that a candidate takes in a round, at least, by being repeated."""
+
 FEWEST_ROUNDS = 5
 
 BLOCKS = 20
@@ -69,8 +72,9 @@ class Comparison:
             start = perf_counter()
             run()
             once[name] = perf_counter() - start
-        # Short ones are repeated within a round, because a clock has its grain.
-        repeats = {name: max(1, round(1e-4 / max(time, 1e-7))) for name, time in once.items()}
+        # Short ones are repeated within a round: a clock has its grain, and the first call finds
+        # caches that others have filled, which takes it three times as long.
+        repeats = {name: max(1, round(TURN / max(time, 1e-7))) for name, time in once.items()}
         turn = sum(once[name] * repeats[name] for name in candidates)
 
         def timed(name: str, run: Callable[[], object]) -> float:
