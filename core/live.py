@@ -86,11 +86,12 @@ class LiveCurve(LimitCurve):
     def put(self, indices: NDArray[np.intp], positions: ArrayLike) -> None:
         """The same, without a look at what has changed; ``indices`` are an array."""
         points = self._points
-        points[indices] = positions
+        chosen, stored = _placed(indices)
+        points[chosen] = positions
         if indices.size:
             is_short = len(points) < far(_SIDES)
             if not is_short:
-                self._store[:, SIDE + indices] = points[indices].T
+                self._store[:, stored] = points[chosen].T
             if is_short or any(self._at_ends(indices)):
                 self._write_ends(self.mask)
 
@@ -128,7 +129,8 @@ class LiveCurve(LimitCurve):
 
     def _at_ends(self, moved: NDArray[np.intp]) -> tuple[bool, bool]:
         """Whether points lie so near the start, or the end, that phantom points follow them."""
-        return least(moved) <= SIDE, largest(moved) >= len(self._points) - 1 - SIDE
+        first, last = (moved.item(),) * 2 if moved.size == 1 else (least(moved), largest(moved))
+        return first <= SIDE, last >= len(self._points) - 1 - SIDE
 
     def _write_ends(self, mask: Mask) -> None:
         points, store = self._points, self._store
@@ -143,6 +145,19 @@ class LiveCurve(LimitCurve):
         left, right = reach(mask)
         store = self.padded
         self._read(store[:, SIDE - left : store.shape[1] - SIDE + right], mask)
+
+
+def _placed(
+    indices: NDArray[np.intp],
+) -> tuple[slice, slice] | tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where points are, and where the store has them.
+
+    The one point of a drag is written as a slice three times as fast as by an array.
+    """
+    if indices.size != 1:
+        return indices, SIDE + indices
+    index = indices.item()
+    return slice(index, index + 1), slice(SIDE + index, SIDE + index + 1)
 
 
 def _shown(array: NDArray[np.float64]) -> NDArray[np.float64]:
