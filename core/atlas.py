@@ -222,7 +222,7 @@ class _Masks:
         base = plane.member(zero, zero).mask
         u_part = plane.member(one, zero).mask - base
         v_part = plane.member(zero, one).mask - base
-        parts = [part for part in (base, u_part, v_part) if part.coefficients]
+        parts = [part for part in (base, u_part, v_part) if part.numerators]
         multiplicity = min(part.factored()[0] for part in parts)
         start, end = min(p.start for p in parts), max(p.end for p in parts)
 

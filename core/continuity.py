@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from functools import lru_cache
-from math import ceil, floor, lcm
+from math import ceil, floor
 from typing import Final
 
 import numpy as np
@@ -73,20 +73,18 @@ def iterated_norm(b: Mask, iterations: int) -> Fraction:
 
     ``b^[L](z) = b(z) b(z^2) ... b(z^(2^(L-1)))``; computed in integers over one denominator.
     """
-    denominator = lcm(*(c.denominator for c in b.coefficients), 1)
-    step = [int(c * denominator) for c in b.coefficients]
     iterated = [1]
     for _ in range(iterations):
-        longer = [0] * (2 * len(iterated) - 2 + len(step))
+        longer = [0] * (2 * len(iterated) - 2 + len(b.numerators))
         for k, value in enumerate(iterated):
-            for i, c in enumerate(step):
+            for i, c in enumerate(b.numerators):
                 longer[2 * k + i] += value * c
         iterated = longer
     period = 2**iterations
     sums = [0] * period
     for k, value in enumerate(iterated):
         sums[k % period] += abs(value)
-    return Fraction(max(sums), denominator**iterations)
+    return Fraction(max(sums), b.denominator**iterations)
 
 
 def certificate(mask: Mask, exact: bool = False) -> Certificate:
@@ -208,7 +206,7 @@ def smoothness(
     else:
         exponent = exact_interval(mask, cancelled)
     multiplicity, quotient = mask.factored()
-    if len(quotient.coefficients) == 1:
+    if len(quotient.numerators) == 1:
         not_class = multiplicity - 1
     elif exponent.upper <= 0:
         not_class = 0

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import lcm
+from math import gcd, lcm
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -48,7 +48,7 @@ class Stencil(NamedTuple):
         return zip(self.offsets, self.weights, strict=True)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False, repr=False)
 class Mask:
     """The mask ``a`` of a binary scheme, ``P_m = sum_j a_{m-2j} p_j`` (paper, eq. 2.1).
 
@@ -62,6 +62,14 @@ class Mask:
     coefficients
         Exact coefficients ``a_start, a_{start+1}, ...``; zeros at the ends are trimmed away.
 
+    Attributes
+    ----------
+    start
+        Index of the first coefficient that is not zero.
+    numerators, denominator
+        The coefficients over their least common denominator, greater than 0. Fractions are reduced
+        after every step; chains of sums are ten times as fast in integers.
+
     Notes
     -----
     The symbol is ``a(z) = sum_i a_i z^i`` (paper, eq. 2.2). Sums and products of masks are those
@@ -69,53 +77,62 @@ class Mask:
     """
 
     start: int
-    coefficients: tuple[Fraction, ...]
+    numerators: tuple[int, ...]
+    denominator: int
 
-    def __post_init__(self) -> None:
-        first, last = 0, len(self.coefficients)
-        while first < last and self.coefficients[first] == 0:
+    def __init__(self, start: int, coefficients: Iterable[Fraction]) -> None:
+        exact = tuple(Fraction(c) for c in coefficients)
+        common = lcm(*(c.denominator for c in exact))
+        self._take(start, [c.numerator * (common // c.denominator) for c in exact], common)
+
+    @classmethod
+    def over(cls, start: int, numerators: Sequence[int], denominator: int) -> Mask:
+        """Mask of the coefficients ``numerators[k] / denominator``, a denominator above 0."""
+        mask = object.__new__(cls)
+        mask._take(start, numerators, denominator)
+        return mask
+
+    def _take(self, start: int, numerators: Sequence[int], denominator: int) -> None:
+        """Trim and reduce, so that equal symbols have equal attributes."""
+        first, last = 0, len(numerators)
+        while first < last and not numerators[first]:
             first += 1
-        while last > first and self.coefficients[last - 1] == 0:
+        while last > first and not numerators[last - 1]:
             last -= 1
-        object.__setattr__(self, "start", self.start + first if first < last else 0)
-        object.__setattr__(
-            self, "coefficients", tuple(Fraction(c) for c in self.coefficients[first:last])
-        )
+        factor = gcd(denominator, *numerators[first:last])
+        kept = tuple(n // factor for n in numerators[first:last])
+        object.__setattr__(self, "start", start + first if kept else 0)
+        object.__setattr__(self, "numerators", kept)
+        object.__setattr__(self, "denominator", denominator // factor)
 
     def __hash__(self) -> int:
         return self._hash
 
     @cached_property
     def _hash(self) -> int:
-        # Masks are keys of all caches, and hashing a fraction is slow.
-        return hash((self.start, self._integers))
+        # Masks are keys of all caches, and hashed more often than made.
+        return hash((self.start, self.numerators, self.denominator))
+
+    def __repr__(self) -> str:
+        return f"Mask({self.start}, {self.coefficients})"
 
     @cached_property
-    def _integers(self) -> tuple[tuple[int, ...], int]:
-        """Numerators of the coefficients over their least common denominator, and that.
-
-        Fractions are reduced after every step; chains of sums are ten times as fast in integers.
-        """
-        common = lcm(*(c.denominator for c in self.coefficients))
-        return tuple(c.numerator * (common // c.denominator) for c in self.coefficients), common
+    def coefficients(self) -> tuple[Fraction, ...]:
+        """The exact coefficients ``a_start, a_{start+1}, ...``."""
+        return tuple(Fraction(n, self.denominator) for n in self.numerators)
 
     @classmethod
     def combined(cls, *parts: tuple[Fraction, Mask]) -> Mask:
         """Linear combination of masks: the sum of their symbols, each times a number."""
         start = min(mask.start for _, mask in parts)
         end = max(mask.end for _, mask in parts)
-        common = lcm(*(number.denominator * mask._integers[1] for number, mask in parts))
+        common = lcm(*(number.denominator * mask.denominator for number, mask in parts))
         total = [0] * (end - start + 1)
         for number, mask in parts:
-            numerators, denominator = mask._integers
-            factor = number.numerator * (common // (number.denominator * denominator))
-            for i, n in enumerate(numerators, mask.start - start):
+            factor = number.numerator * (common // (number.denominator * mask.denominator))
+            for i, n in enumerate(mask.numerators, mask.start - start):
                 total[i] += n * factor
-        return cls._over(start, total, common)
-
-    @classmethod
-    def _over(cls, start: int, numerators: Iterable[int], denominator: int) -> Mask:
-        return cls(start, tuple(Fraction(n, denominator) for n in numerators))
+        return cls.over(start, total, common)
 
     @classmethod
     def from_mapping(cls, coefficients: Mapping[int, Fraction]) -> Mask:
@@ -136,12 +153,12 @@ class Mask:
     @property
     def end(self) -> int:
         """Index of the last coefficient."""
-        return self.start + len(self.coefficients) - 1
+        return self.start + len(self.numerators) - 1
 
     def __getitem__(self, index: int) -> Fraction:
         """Coefficient ``a_index``, zero outside the support."""
         position = index - self.start
-        if 0 <= position < len(self.coefficients):
+        if 0 <= position < len(self.numerators):
             return self.coefficients[position]
         return Fraction(0)
 
@@ -152,7 +169,7 @@ class Mask:
     @cached_property
     def values(self) -> NDArray[np.float64]:
         """The coefficients rounded to floats, read-only."""
-        values = np.array([float(c) for c in self.coefficients])
+        values = np.array([n / self.denominator for n in self.numerators])
         values.flags.writeable = False
         return values
 
@@ -174,7 +191,7 @@ class Mask:
     @property
     def is_symmetric(self) -> bool:
         """Whether the mask is its own mirror image, so that mirrored data give a mirrored curve."""
-        return self.coefficients == self.coefficients[::-1]
+        return self.numerators == self.numerators[::-1]
 
     def symbol(self, z: Fraction) -> Fraction:
         """Value of the symbol ``a(z)`` at an exact ``z != 0``."""
@@ -190,19 +207,23 @@ class Mask:
 
     def __mul__(self, other: Mask) -> Mask:
         """Product of the symbols (convolution of the masks)."""
-        total: dict[int, Fraction] = {}
-        for i, c in self.items():
-            for j, d in other.items():
-                total[i + j] = total.get(i + j, Fraction(0)) + c * d
-        return Mask.from_mapping(total)
+        total = [0] * (len(self.numerators) + len(other.numerators))
+        for i, n in enumerate(self.numerators):
+            for k, m in enumerate(other.numerators, i):
+                total[k] += n * m
+        return Mask.over(self.start + other.start, total, self.denominator * other.denominator)
 
     def scaled(self, factor: Fraction) -> Mask:
         """The symbol times a number."""
-        return Mask(self.start, tuple(factor * c for c in self.coefficients))
+        return Mask.over(
+            self.start,
+            [factor.numerator * n for n in self.numerators],
+            factor.denominator * self.denominator,
+        )
 
     def shifted(self, places: int) -> Mask:
         """The symbol times ``z^places``."""
-        return Mask(self.start + places, self.coefficients)
+        return Mask.over(self.start + places, self.numerators, self.denominator)
 
     def alternated(self) -> Mask:
         """The symbol ``a(-z)``: the odd coefficients change sign."""
@@ -216,23 +237,23 @@ class Mask:
         ArithmeticError
             If ``(1+z)^power`` does not divide the symbol.
         """
-        numerators, denominator = self._integers
+        numerators = self.numerators
         for _ in range(power):
             numerators, remainder = _divided(numerators)
             if remainder:
                 raise ArithmeticError("1 + z does not divide the symbol")
-        return Mask._over(self.start, numerators, denominator)
+        return Mask.over(self.start, numerators, self.denominator)
 
     def factored(self) -> tuple[int, Mask]:
         """Split off ``(1+z)``: multiplicity ``m`` and quotient ``a(z) / (1+z)^m``.
 
         The symbol must not be zero (it would be divisible without end).
         """
-        multiplicity, (quotient, denominator) = 0, self._integers
+        multiplicity, quotient = 0, self.numerators
         while True:
             shorter, remainder = _divided(quotient)
             if remainder:
-                return multiplicity, Mask._over(self.start, quotient, denominator)
+                return multiplicity, Mask.over(self.start, quotient, self.denominator)
             multiplicity, quotient = multiplicity + 1, shorter
 
 

@@ -1,6 +1,7 @@
 """Masks as exact Laurent polynomials."""
 
 from fractions import Fraction
+from math import lcm
 
 import pytest
 from hypothesis import given
@@ -69,3 +70,11 @@ def test_coefficients_outside_the_support_are_zero():
     a = Mask(-2, (Fraction(1), Fraction(5)))
     assert [a[i] for i in (-3, -2, -1, 0)] == [0, 1, 5, 0]
     assert not a.values.flags.writeable
+
+
+@given(MASKS)
+def test_the_integers_of_a_mask_are_its_coefficients_in_lowest_terms(a):
+    assert a.denominator == lcm(*(c.denominator for c in a.coefficients))
+    assert tuple(Fraction(n, a.denominator) for n in a.numerators) == a.coefficients
+    scaled = Mask.over(a.start - 1, [0, *(3 * n for n in a.numerators), 0], 3 * a.denominator)
+    assert (scaled, hash(scaled)) == (a, hash(a))
