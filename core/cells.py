@@ -66,23 +66,26 @@ class Cells:
         values = BasicLimitFunction(self.mask).values(0)[::-1]
         return np.stack([self.windows @ values[1:], self.windows @ values[:-1]], axis=1)
 
-    def upper(self, ends: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Proven upper bounds of the values in each cell, shape (k,).
+    def bounds(self, ends: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Proven lower and upper bounds of the values in each cell, shape (2, k).
 
-        The smaller one of two: the larger end plus the chord bound, and, sharp in the tails, where
-        the data are small and nearly constant, the middle of the data plus their half range times
-        `core.chords.size_constant`.
+        The sharper ones of two: the ends and the chord bound beyond them, and, sharp in the tails,
+        where the data are nearly constant, the middle of the data and their half range times
+        `core.chords.size_constant` beyond it.
 
         Raises
         ------
         NoLimitError
             If the scheme is not seen to converge.
         """
-        bends = np.abs(np.diff(self.windows, n=2, axis=1)).max(axis=1)
-        by_chord = ends.max(axis=1) + cell_constant(self.mask) * bends
+        steps = self.windows[:, 1:] - self.windows[:, :-1]
+        bend = cell_constant(self.mask) * np.abs(steps[:, 1:] - steps[:, :-1]).max(axis=1)
         low, high = self.windows.min(axis=1), self.windows.max(axis=1)
-        by_size = (low + high + size_constant(self.mask) * (high - low)) / 2
-        return np.asarray(np.minimum(by_chord, by_size), dtype=np.float64)
+        middle, reach = (low + high) / 2, size_constant(self.mask) * (high - low) / 2
+        return np.stack([
+            np.maximum(ends.min(axis=1) - bend, middle - reach),
+            np.minimum(ends.max(axis=1) + bend, middle + reach),
+        ])
 
     def parts(self) -> Cells:
         """The cells of an eighth of the size: all parts of the first cell, then of the second."""
@@ -94,29 +97,43 @@ class Cells:
         return Cells(self.mask, self.windows[chosen])
 
 
-def maximum(cells: Cells) -> Interval:
-    """Interval of the maximum over the cells and 0, which the function takes elsewhere.
+class Excess(NamedTuple):
+    """How far a function rises above a range, and falls below it: two intervals."""
 
-    The largest end is a lower bound. A cell whose upper bound exceeds it by no more than `WIDTH`
-    is dropped; the others are cut into parts.
+    above: Interval
+    below: Interval
+
+
+def excess(cells: Cells, low: float = 0.0, high: float = 0.0) -> Excess:
+    """How far a function leaves the range from ``low`` to ``high``, which it keeps to elsewhere.
+
+    The ends show how far it does. A cell whose bounds lie no more than `WIDTH` beyond them is
+    dropped; the others are cut into parts, for both sides at once.
     """
-    lower = dropped = 0.0
+    seen, dropped = np.zeros((2, 1)), np.zeros((2, 1))
+    signs, limits = np.array([[-1.0], [1.0]]), np.array([[-low], [high]])
     try:
         for _ in range(_MAX_DEPTH):
             ends = cells.ends
-            upper = cells.upper(ends)
-            lower = max(lower, float(ends.max(initial=0.0)))
-            alive = upper > lower + WIDTH - 2 * _ROUNDING
-            dropped = max(dropped, float(upper[~alive].max(initial=0.0)))
-            if not alive.any():
-                return Interval(max(lower - _ROUNDING, 0.0), max(dropped, lower) + _ROUNDING)
-            remaining = max(dropped, float(upper.max()))
-            if alive.sum() > _MAX_CELLS:
+            bounds = signs * cells.bounds(ends) - limits
+            shown = np.array([[-ends.min()], [ends.max()]]) - limits
+            seen = np.maximum(seen, shown)
+            alive = bounds > seen + (WIDTH - 2 * _ROUNDING)
+            beyond = np.where(alive, 0.0, bounds).max(axis=1, keepdims=True)
+            remaining = np.maximum(dropped, bounds.max(axis=1, keepdims=True))
+            dropped = np.maximum(dropped, beyond)
+            kept = alive.any(axis=0)
+            if not kept.any():
+                remaining = np.maximum(dropped, seen)
                 break
-            cells = cells.subset(alive).parts()
+            if kept.sum() > _MAX_CELLS:
+                break
+            cells = cells.subset(kept).parts()
     except NoLimitError:
-        return Interval(max(lower - _ROUNDING, 0.0), np.inf)
-    return Interval(max(lower - _ROUNDING, 0.0), remaining + _ROUNDING)
+        remaining = np.full((2, 1), np.inf)
+    lower = np.maximum(seen - _ROUNDING, 0.0)
+    below, above = map(Interval, lower[:, 0].tolist(), (remaining + _ROUNDING)[:, 0].tolist())
+    return Excess(above, below)
 
 
 @lru_cache(maxsize=MEMORY)

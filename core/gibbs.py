@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.basis import MEMORY, BasicLimitFunction
-from core.cells import Cells, Interval, maximum
+from core.cells import Cells, Interval, excess
 from core.mask import Mask
 
 SAMPLE_LEVEL: Final = 10
@@ -115,7 +115,7 @@ def falls_monotonically(mask: Mask) -> bool:
     S falls if the scheme for differences, ``a(z) / (1+z)``, has no negative coefficient. That is
     sufficient, not necessary.
     """
-    return all(c >= 0 for c in mask.divided().coefficients)
+    return all(n >= 0 for n in mask.divided().numerators)
 
 
 @lru_cache(maxsize=MEMORY)
@@ -127,10 +127,8 @@ def step_gibbs(mask: Mask) -> Gibbs:
     """
     if falls_monotonically(mask):
         return Gibbs(Interval(0.0, 0.0), Interval(0.0, 0.0))
-    before = _places(mask) <= 0
-    overshoot = maximum(Cells(mask, np.where(before, 0.0, -1.0)))
-    undershoot = maximum(Cells(mask, np.where(before, -1.0, 0.0)))
-    return Gibbs(overshoot, undershoot)
+    step = np.where(_places(mask) <= 0, 1.0, 0.0)
+    return Gibbs(*excess(Cells(mask, step), 0.0, 1.0))
 
 
 @lru_cache(maxsize=MEMORY)
@@ -145,10 +143,8 @@ def ramp_gibbs(mask: Mask) -> Gibbs:
     ramp = np.maximum(places - 0.5, 0.0)
     cell = np.arange(mask.start, mask.end + 1)[:, None]
     rest = ramp - np.where(cell <= 0, 0.0, places - 0.5)
-    below = maximum(Cells(mask, -rest))
-    if falls_monotonically(mask):
-        below = Interval(0.0, 0.0)
-    return Gibbs(maximum(Cells(mask, rest)), below)
+    above, below = excess(Cells(mask, rest))
+    return Gibbs(above, Interval(0.0, 0.0) if falls_monotonically(mask) else below)
 
 
 def _places(mask: Mask) -> NDArray[np.float64]:

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from core.basis import MEMORY, BasicLimitFunction
-from core.cells import Cells, Interval, maximum
+from core.cells import Cells, Interval, excess
 from core.mask import Mask
 
 _SAMPLE_LEVEL: Final = 8
@@ -57,12 +57,11 @@ def profile(mask: Mask) -> Profile:
     phi = BasicLimitFunction(mask)
     # Cell j reads p_i, i = j - end + 1 .. j - start: the datum 1 at i = 0 stands at end - 1 - j.
     impulse = np.eye(mask.end - mask.start)
-    if all(c >= 0 for c in mask.coefficients):
+    height, depth = excess(Cells(mask, impulse))
+    if all(n >= 0 for n in mask.numerators):
         depth = Interval(0.0, 0.0)
-    else:
-        depth = maximum(Cells(mask, -impulse))
     return Profile(
-        maximum(Cells(mask, impulse)),
+        height,
         depth,
         _negative_lobes(phi),
         sum(phi.integer_values.values(), Fraction(0)),

@@ -1,4 +1,4 @@
-"""Cells of the dual grid, and the maximum of a limit function as a proven interval."""
+"""Cells of the dual grid, and how far a limit function leaves a range, as proven intervals."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.basis import BasicLimitFunction
-from core.cells import WIDTH, Cells, maximum, refinements
+from core.cells import WIDTH, Cells, excess, refinements
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
 from oracles import convergent_members
@@ -40,39 +40,46 @@ def test_the_parts_are_the_eighths_of_the_curve(parameters, seed):
 
 
 @given(convergent_members(), SEEDS)
-def test_upper_bounds_hold_at_every_depth(parameters, seed):
+def test_bounds_hold_at_every_depth(parameters, seed):
     cells, curve = cell_of(parameters, seed)
     t = np.arange(29.5 * 64, 30.5 * 64 + 1) / 64
-    highest = max(curve.at(x)[0] for x in t)
+    values = [curve.at(x)[0] for x in t]
     for _ in range(3):
-        assert cells.upper(cells.ends).max() >= highest - 1e-12
+        least, largest = cells.bounds(cells.ends)
+        assert largest.max() >= max(values) - 1e-12
+        assert least.min() <= min(values) + 1e-12
         cells = cells.parts()
 
 
 @given(convergent_members(["translated"]), SEEDS)
-def test_the_maximum_lies_in_the_interval_and_the_interval_is_narrow(parameters, seed):
+def test_the_excess_lies_in_narrow_intervals(parameters, seed):
     cell, curve = cell_of(parameters, seed)
-    found = maximum(cell)
+    low, high = np.sort(np.random.default_rng(seed).uniform(-1, 1, size=2))
     t = np.arange(29.5 * 256, 30.5 * 256 + 1) / 256
-    sampled = max(0.0, *(curve.at(x)[0] for x in t))
-    assert sampled <= found.upper
-    assert found.lower <= found.upper <= found.lower + WIDTH
-    # The sampled maximum is at most a chord error of level 8 away.
-    assert found.lower <= sampled + 1e-3
+    values = np.array([curve.at(x)[0] for x in t])
+    both = excess(cell, low, high)
+    for found, samples in ((both.above, values - high), (both.below, low - values)):
+        sampled = samples.max(initial=0.0)
+        assert sampled <= found.upper
+        assert found.lower <= found.upper <= found.lower + WIDTH
+        # The sampled maximum is at most a chord error of level 8 away.
+        assert found.lower <= sampled + 1e-3
 
 
 def test_nothing_is_bounded_for_divergent_members():
     mask = Parameters(50, 0, 0).mask
-    found = maximum(Cells(mask, np.ones((1, mask.end - mask.start))))
-    assert found.upper == np.inf
-    assert np.isfinite(found.lower)
+    for found in excess(Cells(mask, np.ones((1, mask.end - mask.start)))):
+        assert found.upper == np.inf
+        assert np.isfinite(found.lower)
 
 
-def test_negative_functions_have_the_maximum_zero_of_their_surroundings():
+@pytest.mark.parametrize("value", [-1.0, 2.0])
+def test_a_function_within_the_range_exceeds_it_on_neither_side(value):
     mask = PRESETS["Calm"].mask
-    found = maximum(Cells(mask, -np.ones((1, mask.end - mask.start))))
-    assert found.lower == 0
-    assert found.upper == pytest.approx(0, abs=1e-12)
+    data = np.full((1, mask.end - mask.start), value)
+    for found in excess(Cells(mask, data), -1.0, 2.0):
+        assert found.lower == 0
+        assert found.upper == pytest.approx(0, abs=1e-12)
 
 
 @given(convergent_members())
