@@ -34,7 +34,17 @@ from numpy.typing import NDArray
 from core.basis import MEMORY
 from core.mask import Mask
 from core.polytope import INSIDE, Cancelled, invariant_polytope, never
-from core.radius import ROUNDING, WORD_LENGTH, Radius, improved, matrices_of, radius_of, well_scaled
+from core.radius import (
+    PROMISING,
+    ROUNDING,
+    WORD_LENGTH,
+    Radius,
+    improved,
+    matrices_of,
+    mean_radii,
+    radius_of,
+    well_scaled,
+)
 
 QUICK_WIDTH: Final = 0.049
 """Width that is aimed at while a slider moves."""
@@ -206,7 +216,9 @@ def _searched(mask: Mask, width: float, max_nodes: int) -> tuple[HoelderInterval
             return _interval(radius, bound * ROUNDING), radius
         if length > WORD_LENGTH:
             largest = np.argsort(-shortest)[:_TRIED_WORDS]
-            radius = improved(radius, [_digits(int(words[k]), length) for k in largest])
+            means = target * mean_radii(products[largest], np.array(length))
+            promising = largest[means * PROMISING > radius.lower]
+            radius = improved(radius, [_digits(int(words[k]), length) for k in promising])
             shrink = target / (radius.lower * 2.0**width)
             target /= shrink
             steps = steps * shrink

@@ -26,8 +26,8 @@ ROUNDING: Final = 1 + 1e-10
 WORD_LENGTH: Final = 6
 """Longest products whose spectral radii are tried as lower bounds of rho."""
 
-_PROMISING: Final = 1e-6
-"""Of these, relative distance from the largest up to which one is looked at in full."""
+PROMISING: Final = 1 + 1e-6
+"""A product is looked at in full if its mean spectral radius, so stretched, may be the largest."""
 
 _REAL: Final = 1e-9
 """Norm of a part of an eigenvector of norm 1 below which the part is rounding."""
@@ -101,16 +101,20 @@ def radius_of(mask: Mask) -> Radius:
 
 def _promising_words(matrices: NDArray[np.float64]) -> list[tuple[int, ...]]:
     """Words up to `WORD_LENGTH` whose products have nearly the largest mean spectral radius."""
-    words = _lyndon_words(WORD_LENGTH)
-    products: dict[tuple[int, ...], NDArray[np.float64]] = {(): np.eye(matrices.shape[1])}
-    for word in words:
-        for end in range(1, len(word) + 1):
-            if word[:end] not in products:
-                products[word[:end]] = matrices[word[end - 1]] @ products[word[: end - 1]]
-    powers = np.array([products[word] for word in words])
-    lengths = np.array([len(word) for word in words])
-    means = np.abs(np.linalg.eigvals(powers)).max(axis=1) ** (1 / lengths)
-    return [words[k] for k in np.flatnonzero(means * (1 + _PROMISING) >= means.max())]
+    words, codes = _lyndon_words(WORD_LENGTH)
+    products, kept = matrices, [matrices[codes[0]]]
+    for ranks in codes[1:]:
+        # The new digit leads the code and is the factor on the left.
+        products = np.matmul(matrices[:, None], products).reshape(-1, *matrices.shape[1:])
+        kept.append(products[ranks])
+    means = mean_radii(np.concatenate(kept), np.array([len(word) for word in words]))
+    return [words[k] for k in np.flatnonzero(means * PROMISING >= means.max())]
+
+
+def mean_radii(powers: NDArray[np.float64], lengths: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Mean spectral radii of products, shape (k, d, d), of so many factors each; not rounded."""
+    sizes: NDArray[np.float64] = np.abs(np.linalg.eigvals(powers)).max(axis=1)
+    return sizes ** (1 / lengths)
 
 
 def well_scaled(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -160,14 +164,24 @@ def _spectral_radius(
 
 
 @cache
-def _lyndon_words(longest: int) -> tuple[tuple[int, ...], ...]:
-    """Binary words that are smaller than all their rotations: one for each primitive product."""
-    return tuple(
-        word
+def _lyndon_words(longest: int) -> tuple[list[tuple[int, ...]], list[list[int]]]:
+    """Binary words that are smaller than all their rotations: one for each primitive product.
+
+    Returns
+    -------
+    words, codes
+        The words by rising length; and for each length their codes ``sum_k word[k] 2^k``.
+    """
+    by_length = [
+        [
+            word
+            for word in product((0, 1), repeat=length)
+            if all(word < word[k:] + word[:k] for k in range(1, length))
+        ]
         for length in range(1, longest + 1)
-        for word in product((0, 1), repeat=length)
-        if all(word < word[k:] + word[:k] for k in range(1, length))
-    )
+    ]
+    codes = [[sum(e << k for k, e in enumerate(word)) for word in words] for words in by_length]
+    return [word for words in by_length for word in words], codes
 
 
 def improved(radius: Radius, words: list[tuple[int, ...]]) -> Radius:

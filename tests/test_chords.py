@@ -8,12 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.basis import BasicLimitFunction
-from core.chords import cell_constant, chord_constant, second_difference_norm, size_constant
+from core.chords import (
+    cell_constant,
+    chord_constant,
+    grows,
+    second_difference_norm,
+    size_constant,
+)
 from core.errors import NoLimitError
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
 from core.refine import subdivide
-from oracles import convergent_members
+from oracles import convergent_members, members
 
 
 @pytest.mark.parametrize("name", PRESETS)
@@ -105,6 +111,14 @@ def test_no_curve_is_larger_than_the_size_constant_says(parameters, seed):
 def test_the_size_constant_is_one_for_a_curve_in_the_hull_of_its_points():
     assert size_constant(PRESETS["B-spline"].mask) == pytest.approx(1, abs=1e-5)
     assert size_constant(PRESETS["Lagrange"].mask) > 1.05
+
+
+@given(members())
+def test_where_second_differences_are_proven_to_shrink_chords_come_closer(parameters):
+    mask = parameters.mask
+    if second_difference_norm(mask, 4) < 1 / 2:
+        assert not grows(mask)
+        assert chord_constant(mask, 12) < chord_constant(mask, 4)
 
 
 def test_no_constant_is_stated_for_divergent_members():
