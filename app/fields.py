@@ -133,8 +133,10 @@ class NumberField(QLineEdit):
             self.entered.emit(number)
 
     def _mark(self, fault: str) -> None:
-        self.setToolTip(fault or self._explanation)
-        self.setAccessibleDescription(fault or self._explanation)
+        words = fault or self._explanation
+        if words != self.toolTip():
+            self.setToolTip(words)
+            self.setAccessibleDescription(words)
         if fault != self._fault:
             self._fault = fault
             self.update()

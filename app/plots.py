@@ -12,12 +12,13 @@ import numpy as np
 import pyqtgraph as pg
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QFont, QWheelEvent
+from PySide6.QtGui import QBrush, QFont, QPen, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
 from app.guard import guarded
 from app.session import Session
 from app.style import Palette, color, palette_of
+from app.trace import Trace
 from core.basis import BasicLimitFunction
 from core.chords import COARSE_LEVEL, grows
 from core.continuity import certificate
@@ -65,7 +66,7 @@ LEAST_PEAK: Final = 1e-6
 """Overshoot below this is not marked: it could not be seen."""
 
 CURVE_PX: Final = 1.5
-"""Width of the plotted line: wider ones cost many times more to draw."""
+"""Width of the plotted line."""
 
 
 class AnalysisPlot(pg.PlotWidget):
@@ -93,6 +94,9 @@ class AnalysisPlot(pg.PlotWidget):
         self._is_wild = False
         self.setAccessibleName(name)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        # A scene has its window painted as soon as its own items have settled: of two plots the
+        # second would come a picture later. So each says itself when it shows something else.
+        self.setViewportUpdateMode(pg.GraphicsView.ViewportUpdateMode.NoViewportUpdate)
         item = self.getPlotItem()
         item.hideButtons()
         item.setMenuEnabled(False)
@@ -105,7 +109,7 @@ class AnalysisPlot(pg.PlotWidget):
         item.setContentsMargins(2, 6, 8, 2)
         item.setXRange(-HALF_WIDTH, HALF_WIDTH, padding=0)
         self.zero = pg.InfiniteLine(0.0, angle=0)
-        self.curve = pg.PlotCurveItem(antialias=True)
+        self.curve = Trace()
         self.note = pg.TextItem(anchor=(0.5, 0.0))
         self.note.setZValue(10)
         for part in (self.zero, self.curve, self.note):
@@ -144,7 +148,7 @@ class AnalysisPlot(pg.PlotWidget):
             found, self._is_wild = True, grows(parameters.mask)
         except NoLimitError as error:
             sentence, found, self._is_wild = str(error), False, False
-            self.curve.setData([], [])
+            self.curve.clear()
         for part in self._parts:
             part.setVisible(found)
         self.setAccessibleDescription(sentence)
@@ -153,6 +157,7 @@ class AnalysisPlot(pg.PlotWidget):
         self.note.setTextWidth(-1 if found else self.width() * NOTE_SHARE)
         self._ground_note()
         self._place_note()
+        self.viewport().update()
 
     def _show_curve(
         self,
@@ -162,7 +167,7 @@ class AnalysisPlot(pg.PlotWidget):
     ) -> None:
         """Put values into the curve, and choose a range that holds the others as well."""
         seen = np.clip(np.nan_to_num(values), -WIDEST, WIDEST)
-        self.curve.setData(t, seen, connect="all")
+        self.curve.put(t, seen)
         if others is not None:
             seen = np.concatenate([seen, np.clip(others, -WIDEST, WIDEST)])
         low, high = self._least
@@ -180,7 +185,6 @@ class AnalysisPlot(pg.PlotWidget):
         """Give the words a ground of their own where a wild function runs through them."""
         ground = color(palette_of(self).plot_background, NOTE_OPACITY if self._is_wild else 0.0)
         self.note.fill = pg.mkBrush(ground)
-        self.note.update()
 
     def _place_note(self) -> None:
         _, (_, top) = self.getPlotItem().viewRange()
@@ -205,11 +209,12 @@ class AnalysisPlot(pg.PlotWidget):
             axis.setTextPen(pg.mkPen(colours.muted_text))
             axis.setTickFont(font)
         self.zero.setPen(pg.mkPen(colours.axis, width=ratio))
-        self.curve.setPen(pg.mkPen(colours.plot_curve, width=CURVE_PX * ratio))
+        self.curve.pen = QPen(color(colours.plot_curve), CURVE_PX)
         self.note.setColor(colours.text)
         self._ground_note()
         self.note.setFont(font)
         self.paint_with(colours, ratio)
+        self.viewport().update()
 
     @guarded
     def changeEvent(self, event: QEvent) -> None:
@@ -241,7 +246,7 @@ class BasisPlot(AnalysisPlot):
         self._with_slope = False
         self.support = pg.LinearRegionItem(movable=False)
         self.support.setZValue(-10)
-        self.slope = pg.PlotCurveItem(antialias=True)
+        self.slope = Trace()
         for part in (self.support, self.slope):
             item.addItem(part, ignoreBounds=True)
         self._parts = (*self._parts, self.support, self.slope)
@@ -263,9 +268,9 @@ class BasisPlot(AnalysisPlot):
                 names = "\u03c6(t), \u03c6\u2032 not proven"
         self._show_curve(t, phi.values(level), slope)
         if slope is None:
-            self.slope.setData([], [])
+            self.slope.clear()
         else:
-            self.slope.setData(t, slope)
+            self.slope.put(t, slope)
         left, right = phi.support
         self.support.setRegion((float(left), float(right)))
         return f"{names} \u00b7 support {_tick(left)} \u2026 {_tick(right)}"
@@ -273,9 +278,7 @@ class BasisPlot(AnalysisPlot):
     def paint_with(self, colours: Palette, ratio: float) -> None:
         """Shade the support; the derivative differs by its dashes, not by colour alone."""
         self.support.setBrush(pg.mkBrush(colours.plot_fill))
-        dashes = pg.mkPen(colours.plot_annotation, width=CURVE_PX * ratio)
-        dashes.setStyle(Qt.PenStyle.DashLine)
-        self.slope.setPen(dashes)
+        self.slope.pen = QPen(color(colours.plot_annotation), CURVE_PX, Qt.PenStyle.DashLine)
         for line in self.support.lines:
             line.setPen(pg.mkPen(colours.plot_curve, width=ratio, style=Qt.PenStyle.DashLine))
 
@@ -288,10 +291,9 @@ class StepPlot(AnalysisPlot):
 
     def _build(self, item: pg.PlotItem) -> None:
         self.one = pg.InfiniteLine(1.0, angle=0)
-        self.peaks = pg.ScatterPlotItem(size=7, antialias=True)
-        for part in (self.one, self.peaks):
-            item.addItem(part, ignoreBounds=True)
-        self._parts = (*self._parts, self.one, self.peaks)
+        self.one.setZValue(-1)
+        item.addItem(self.one, ignoreBounds=True)
+        self._parts = (*self._parts, self.one)
 
     def draw(self, parameters: Parameters) -> str:
         """Plot S(t), from 1 before its support to 0 behind it, with its proven extremes."""
@@ -308,14 +310,14 @@ class StepPlot(AnalysisPlot):
             peaks.append((t[values.argmax()], min(values.max(), WIDEST)))
         if LEAST_PEAK < gibbs.undershoot.upper < np.inf:
             peaks.append((t[values.argmin()], max(values.min(), -WIDEST)))
-        self.peaks.setData(pos=np.reshape(peaks, (-1, 2)))
+        self.curve.marks = np.reshape(peaks, (-1, 2))
         return described(gibbs)
 
     def paint_with(self, colours: Palette, ratio: float) -> None:
         """Colour the level of the data and the marks at the peaks."""
         self.one.setPen(pg.mkPen(colours.axis, width=ratio))
-        self.peaks.setPen(pg.mkPen(colours.plot_annotation, width=CURVE_PX * ratio))
-        self.peaks.setBrush(pg.mkBrush(colours.plot_background))
+        self.curve.mark_pen = QPen(color(colours.plot_annotation), CURVE_PX)
+        self.curve.mark_brush = QBrush(color(colours.plot_background))
 
 
 def _grown(excess: float) -> float:

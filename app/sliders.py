@@ -298,8 +298,9 @@ class SchemePanel(QWidget):
             self.preset.removeItem(custom)
         self.preset.setCurrentText(CUSTOM if name is None else name)
         tip = "Your own mixture of the weights below." if name is None else PRESET_TIPS[name]
-        self.description.setText(tip)
-        self.preset.setToolTip(tip)
+        if tip != self.description.text():
+            self.description.setText(tip)
+            self.preset.setToolTip(tip)
 
 
 class ResetLabel(QLabel):

@@ -81,10 +81,11 @@ class Track(QSlider):
 
     def show_value(self, value: int, mark: int) -> None:
         """Show a value that comes from elsewhere, which may lie beyond the ends, and the mark."""
-        self._mark = mark
-        self._beyond = not self.minimum() <= value <= self.maximum()
+        beyond = not self.minimum() <= value <= self.maximum()
+        if (mark, beyond) != (self._mark, self._beyond):
+            self._mark, self._beyond = mark, beyond
+            self.update()
         self.setValue(value)
-        self.update()
 
     def x_of(self, value: int) -> float:
         """Place of a value on the track, in pixels from the left."""
