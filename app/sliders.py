@@ -109,6 +109,9 @@ class SchemePanel(QWidget):
         super().__init__(parent)
         self._session = session
         self._showing = False
+        # A ground of its own, though it is the window's: what changes on it is then painted without
+        # the dock and the window behind it.
+        self.setAutoFillBackground(True)
         self._burst = QTimer(self)
         self._burst.setSingleShot(True)
         self._burst.setInterval(BURST_MS)

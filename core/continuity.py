@@ -114,9 +114,10 @@ def certificate(mask: Mask, exact: bool = False) -> Certificate:
 def _certificate(mask: Mask) -> Certificate:
     multiplicity, _ = mask.factored()
     # b of a lower order has the factors (1+z)/2 more: eigenvalues of its matrices are those of the
-    # last b, halved each time. Norms are never below them, so these orders need no trial.
-    floor = float(np.log2(rho_floor(mask)))
-    highest = min(multiplicity - 1, int(np.ceil(multiplicity - 1 - floor)))
+    # last b, halved each time. Norms are never below them, so orders whose own is 1 or more need no
+    # trial: all that are not below the exponent that the eigenvalue bounds.
+    exponent = multiplicity - 1 - float(np.log2(rho_floor(mask)))
+    highest = min(multiplicity - 1, ceil(exponent) - 1)
     for order in range(highest, -1, -1):
         b = derived(mask, order)
         for iterations, (size, error) in enumerate(_float_norms(b.values), start=1):

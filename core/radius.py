@@ -23,11 +23,21 @@ from core.mask import Mask
 ROUNDING: Final = 1 + 1e-10
 """Factor on all bounds of rho that covers the rounding of norms of products."""
 
+_STEPS: Final = 40
+"""How often the map of ellipsoids is applied; the norm does not get much better after that."""
+
 WORD_LENGTH: Final = 6
 """Longest products whose spectral radii are tried as lower bounds of rho."""
 
 PROMISING: Final = 1 + 1e-6
 """A product is looked at in full if its mean spectral radius, so stretched, may be the largest."""
+
+_SQUARINGS: Final = 4
+"""How often products are squared to see which may matter; more do not tell more."""
+
+_SMALL: Final = 0.99
+"""Norm of a squared product below which it cannot be promising: `PROMISING` to the power -96 and
+some rounding."""
 
 _REAL: Final = 1e-9
 """Norm of a part of an eigenvector of norm 1 below which the part is rounding."""
@@ -92,23 +102,41 @@ def radius_of(mask: Mask) -> Radius:
         value = float(np.abs(matrices).max())
         return Radius(multiplicity, matrices, (), value, value, np.ones((1, 1)))
     matrices = well_scaled(matrices)
-    found = [(_spectral_radius(matrices, word), word) for word in _promising_words(matrices)]
+    words, mean = _promising_words(matrices)
+    found = []
+    for word in words:
+        found.append((_spectral_radius(matrices, word), word))
+        if found[-1][0][1] * ROUNDING >= mean:
+            break  # the others cannot be better
     # Among products that are as good up to rounding the shortest one, which comes first.
     largest = max(lower for (_, lower, _), _ in found)
     (value, lower, leading), word = next(f for f in found if f[0][1] * ROUNDING >= largest)
     return Radius(multiplicity, matrices, word, value, lower / ROUNDING, leading)
 
 
-def _promising_words(matrices: NDArray[np.float64]) -> list[tuple[int, ...]]:
-    """Words up to `WORD_LENGTH` whose products have nearly the largest mean spectral radius."""
+def _promising_words(matrices: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], float]:
+    """Words up to `WORD_LENGTH` with nearly the largest mean spectral radius, and that radius.
+
+    A product P of k matrices that are divided by the larger one of their own spectral radii can
+    only matter if ``||P^n|| >= 1`` for all n. Squaring all of them is faster than looking for the
+    eigenvalues of one, and leaves few.
+    """
     words, codes = _lyndon_words(WORD_LENGTH)
     products, kept = matrices, [matrices[codes[0]]]
     for ranks in codes[1:]:
         # The new digit leads the code and is the factor on the left.
         products = np.matmul(matrices[:, None], products).reshape(-1, *matrices.shape[1:])
         kept.append(products[ranks])
-    means = mean_radii(np.concatenate(kept), np.array([len(word) for word in words]))
-    return [words[k] for k in np.flatnonzero(means * PROMISING >= means.max())]
+    powers, lengths = np.concatenate(kept), np.array([len(word) for word in words])
+    least = mean_radii(matrices, np.array(1)).max()
+    with np.errstate(all="ignore"):  # what overflows matters
+        high = powers / least ** lengths[:, None, None]
+        for _ in range(_SQUARINGS):
+            high = high @ high
+        alive = np.flatnonzero(~(np.abs(high).max(axis=(1, 2)) < _SMALL / len(high[0])))
+    means = mean_radii(powers[alive], lengths[alive])
+    largest = means.max()
+    return [words[k] for k in alive[means * PROMISING >= largest]], float(largest)
 
 
 def mean_radii(powers: NDArray[np.float64], lengths: NDArray[np.intp]) -> NDArray[np.float64]:
@@ -125,15 +153,40 @@ def well_scaled(matrices: NDArray[np.float64]) -> NDArray[np.float64]:
     ``rho >= sqrt(lambda / 2)``. A share of the unit matrix keeps it away from being singular.
     """
     size = matrices.shape[1]
-    ellipsoid, share = np.eye(size) / size, 1e-9 * np.eye(size)
-    column = matrices.reshape(-1, size)
-    row = np.ascontiguousarray(column.T)
-    for _ in range(40):
-        image = row @ np.matmul(ellipsoid, matrices).reshape(-1, size)
-        ellipsoid = image / image.trace() + share
+    rows, columns, straight, crossed = _pairs(size)
+    # Entry (i, j) of the image is the sum of B_ki B_lj X_kl; X is symmetric, so X_kl, k <= l, do.
+    flat = matrices.reshape(len(matrices), -1)
+    products = (flat.T @ flat).ravel()
+    step = products[straight] + products[crossed] * (rows != columns)[:, None]
+    image = (rows == columns).astype(float)
+    step /= np.abs(image @ step).max()
+    for _ in range(_STEPS):
+        image = image @ step
+    ellipsoid = np.empty((size, size))
+    ellipsoid[rows, columns] = ellipsoid[columns, rows] = image
+    ellipsoid = ellipsoid / ellipsoid.trace() + 1e-9 * np.eye(size)
     root = np.linalg.cholesky(ellipsoid).T
     scaled: NDArray[np.float64] = root @ matrices @ np.linalg.inv(root)
     return scaled
+
+
+@cache
+def _pairs(size: int) -> tuple[NDArray[np.intp], ...]:
+    """Places (k, l), k <= l, of a symmetric matrix, and of their products in `well_scaled`.
+
+    Returns
+    -------
+    rows, columns
+        k and l of each place.
+    straight, crossed
+        Places of ``B_ki B_lj`` and of ``B_li B_kj`` among all products of two entries, a row for
+        each (k, l) and a column for each (i, j).
+    """
+    rows, columns = np.triu_indices(size)
+    k, l, i, j = rows[:, None], columns[:, None], rows, columns  # noqa: E741
+    straight = (k * size + i) * size**2 + l * size + j
+    crossed = (l * size + i) * size**2 + k * size + j
+    return rows, columns, straight, crossed
 
 
 def _spectral_radius(
