@@ -13,7 +13,7 @@ import pyqtgraph as pg
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QBrush, QFont, QPen, QWheelEvent
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QGraphicsItem, QWidget
 
 from app.guard import guarded
 from app.session import Session
@@ -106,6 +106,7 @@ class AnalysisPlot(pg.PlotWidget):
         item.getAxis("bottom").setHeight(22)
         for side in ("bottom", "left"):
             item.getAxis(side).setStyle(tickLength=-4, tickTextOffset=4)
+            item.getAxis(side).setCacheMode(QGraphicsItem.CacheMode.DeviceCoordinateCache)
         item.setContentsMargins(2, 6, 8, 2)
         item.setXRange(-HALF_WIDTH, HALF_WIDTH, padding=0)
         self.zero = pg.InfiniteLine(0.0, angle=0)
@@ -154,7 +155,9 @@ class AnalysisPlot(pg.PlotWidget):
         self.setAccessibleDescription(sentence)
         if self.note.textItem.toPlainText() != sentence:
             self.note.setText(sentence)
-        self.note.setTextWidth(-1 if found else self.width() * NOTE_SHARE)
+        width = -1.0 if found else self.width() * NOTE_SHARE
+        if width != self.note.textItem.textWidth():
+            self.note.setTextWidth(width)
         self._ground_note()
         self._place_note()
         self.viewport().update()
@@ -166,7 +169,7 @@ class AnalysisPlot(pg.PlotWidget):
         others: NDArray[np.float64] | None = None,
     ) -> None:
         """Put values into the curve, and choose a range that holds the others as well."""
-        seen = np.clip(np.nan_to_num(values), -WIDEST, WIDEST)
+        seen = np.fmax(np.fmin(values, WIDEST), -WIDEST)  # what is no number is nowhere, or high
         self.curve.put(t, seen)
         if others is not None:
             seen = np.concatenate([seen, np.clip(others, -WIDEST, WIDEST)])
@@ -184,7 +187,7 @@ class AnalysisPlot(pg.PlotWidget):
     def _ground_note(self) -> None:
         """Give the words a ground of their own where a wild function runs through them."""
         ground = color(palette_of(self).plot_background, NOTE_OPACITY if self._is_wild else 0.0)
-        self.note.fill = pg.mkBrush(ground)
+        self.note.fill = QBrush(ground)
 
     def _place_note(self) -> None:
         _, (_, top) = self.getPlotItem().viewRange()

@@ -35,7 +35,6 @@ from core.basis import MEMORY
 from core.mask import Mask
 from core.polytope import INSIDE, Cancelled, invariant_polytope, never
 from core.radius import (
-    PROMISING,
     ROUNDING,
     WORD_LENGTH,
     Radius,
@@ -217,8 +216,7 @@ def _searched(mask: Mask, width: float, max_nodes: int) -> tuple[HoelderInterval
         if length > WORD_LENGTH:
             largest = np.argsort(-shortest)[:_TRIED_WORDS]
             means = target * mean_radii(products[largest], np.array(length))
-            promising = largest[means * PROMISING > radius.lower]
-            radius = improved(radius, [_digits(int(words[k]), length) for k in promising])
+            radius = improved(radius, [_digits(int(words[k]), length) for k in largest], means)
             shrink = target / (radius.lower * 2.0**width)
             target /= shrink
             steps = steps * shrink

@@ -29,14 +29,14 @@ _STEPS: Final = 40
 WORD_LENGTH: Final = 6
 """Longest products whose spectral radii are tried as lower bounds of rho."""
 
-PROMISING: Final = 1 + 1e-6
+_PROMISING: Final = 1 + 1e-6
 """A product is looked at in full if its mean spectral radius, so stretched, may be the largest."""
 
 _SQUARINGS: Final = 4
 """How often products are squared to see which may matter; more do not tell more."""
 
 _SMALL: Final = 0.99
-"""Norm of a squared product below which it cannot be promising: `PROMISING` to the power -96 and
+"""Norm of a squared product below which it cannot be promising: `_PROMISING` to the power -96 and
 some rounding."""
 
 _REAL: Final = 1e-9
@@ -136,7 +136,7 @@ def _promising_words(matrices: NDArray[np.float64]) -> tuple[list[tuple[int, ...
         alive = np.flatnonzero(~(np.abs(high).max(axis=(1, 2)) < _SMALL / len(high[0])))
     means = mean_radii(powers[alive], lengths[alive])
     largest = means.max()
-    return [words[k] for k in alive[means * PROMISING >= largest]], float(largest)
+    return [words[k] for k in alive[means * _PROMISING >= largest]], float(largest)
 
 
 def mean_radii(powers: NDArray[np.float64], lengths: NDArray[np.intp]) -> NDArray[np.float64]:
@@ -237,9 +237,14 @@ def _lyndon_words(longest: int) -> tuple[list[tuple[int, ...]], list[list[int]]]
     return [word for words in by_length for word in words], codes
 
 
-def improved(radius: Radius, words: list[tuple[int, ...]]) -> Radius:
-    """The same matrices with the best of some words, if one of them beats the present product."""
-    for word in words:
+def improved(radius: Radius, words: list[tuple[int, ...]], means: NDArray[np.float64]) -> Radius:
+    """The same matrices with the best of some words, if one of them beats the present product.
+
+    ``means`` are the mean spectral radii of the words, not rounded.
+    """
+    for word, mean in zip(words, means.tolist(), strict=True):
+        if mean <= radius.lower * ROUNDING**2:
+            continue
         value, lower, leading = _spectral_radius(radius.matrices, word)
         if lower > radius.lower * ROUNDING**2:
             radius = replace(radius, word=word, value=value, lower=lower, leading=leading)
