@@ -99,6 +99,34 @@ def test_the_style_is_the_same_on_every_system(qtbot):
     assert done.stdout == "fusion ['ninepoint']\n"
 
 
+PAINT = """
+from pathlib import Path
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor, QPainter, QPainterPath, QPixmap
+from app.theme import styled_application
+
+application = styled_application("ninepoint")
+picture = QPixmap(400, 400)
+picture.fill(Qt.GlobalColor.white)
+path = QPainterPath()
+path.addEllipse(QPointF(200, 200), 190, 190)
+with QPainter(picture) as painter:
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.fillPath(path, QColor(0, 0, 0, 99))  # what is seen through is what Qt shares out
+tasks = Path("/proc/self/task")  # where there is none, nothing can be seen
+print([name for task in tasks.glob("*/comm") if "pooled" in (name := task.read_text())])
+"""
+
+
+def test_no_thread_of_qt_helps_to_paint(qtbot):
+    """Such help is for large pictures; handing a line over takes longer than drawing it."""
+    alone = {name: value for name, value in os.environ.items() if "THREADPOOL" not in name}
+    done = subprocess.run(
+        [sys.executable, "-c", PAINT], env=alone, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "[]\n"
+
+
 def test_an_unknown_theme_is_refused(qtbot):
     with pytest.raises(ValueError, match="theme"):
         Look(QApplication.instance(), "sepia")
