@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from math import ceil
 from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import (
     QColor,
     QFont,
-    QFontMetrics,
+    QFontMetricsF,
     QPainter,
     QPaintEvent,
     QPalette,
@@ -91,7 +92,7 @@ class Badge(QWidget):
         (first, _), (second, _) = self._lines()
         width = max(first.horizontalAdvance(self.statement), second.horizontalAdvance(self.detail))
         height = first.height() + LINE_GAP_PX + second.height()
-        return QSize(MARK_PX + WORD_GAP_PX + width, max(height, MARK_PX))
+        return QSize(MARK_PX + WORD_GAP_PX + ceil(width), ceil(max(height, MARK_PX)))
 
     @guarded
     def minimumSizeHint(self) -> QSize:
@@ -120,11 +121,11 @@ class Badge(QWidget):
             painter.translate(0, mark_top)
             _paint_mark(painter, palette_of(self), self.warns)
 
-    def _lines(self) -> tuple[tuple[QFontMetrics, QFont], tuple[QFontMetrics, QFont]]:
+    def _lines(self) -> tuple[tuple[QFontMetricsF, QFont], tuple[QFontMetricsF, QFont]]:
         """Metrics and font of both lines: the statement is bold."""
         plain, bold = self.font(), QFont(self.font())
         bold.setBold(True)
-        return (QFontMetrics(bold), bold), (QFontMetrics(plain), plain)
+        return (QFontMetricsF(bold), bold), (QFontMetricsF(plain), plain)
 
 
 def _paint_mark(painter: QPainter, colours: Palette, warns: bool) -> None:
