@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +36,10 @@ LEAST_SPACING_PX: Final = 4.0
 
 REACH_PX: Final = 12.0
 """How far around the canvas curves and points are drawn: what their pens and handles cover."""
+
+PUSH_SHARE: Final = 1 / 16
+"""How far beyond that, as a share of the canvas, a curve is looked at while the paper is pushed:
+the next views are then mostly the same vertices elsewhere."""
 
 SHORT_VERTICES: Final = 512
 """Vertices up to which a short curve is drawn whole: at high zoom most would be out of view."""
@@ -70,6 +74,8 @@ class Drawn:
         together, to be shown.
     strides
         Distances in t of the cuts of outline and polygon, see `app.line.stride_of`.
+    sight
+        What it was made from, for other views nearby; None if it was made by a splice.
     splice
         How this one was made by a few moves; None if it was made from the levels of detail.
     """
@@ -83,6 +89,7 @@ class Drawn:
     polygon: Runs
     shown: NDArray[np.intp] | None
     strides: tuple[float, float]
+    sight: Sight | None = None
     splice: Splice | None = None
 
     @property
@@ -183,7 +190,30 @@ class Drawn:
         return self.figure
 
 
-def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
+class Sight(NamedTuple):
+    """What is drawn of a curve, in mm: the same for all views of a scale within a rectangle.
+
+    Attributes
+    ----------
+    low, high
+        Corners of the rectangle.
+    origin
+        A place in it, that the vertices are told from.
+    outline, polygon
+        Vertices of limit curve and control polygon.
+    strides
+        As of `Drawn`.
+    """
+
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    origin: NDArray[np.float64]
+    outline: Runs
+    polygon: Runs
+    strides: tuple[float, float]
+
+
+def traced(figure: Figure, camera: Camera, ratio: float, before: Drawn | None = None) -> Drawn:
     """Compute how the curve that a figure stands for is drawn.
 
     Parameters
@@ -194,16 +224,54 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
         The view.
     ratio
         Device pixels per logical pixel.
+    before
+        What was drawn before, of whatever curve; if it is the same one and the paper was only
+        pushed, what was found then is mostly all that is needed.
     """
+    low, high = seen_mm(camera)
+    sight, is_pushed = None, False
+    if before is not None and before.curve is figure.curve and before.scheme is figure.parameters:
+        is_pushed = (before.camera.scale, before.ratio) == (camera.scale, ratio)
+        known = before.sight if is_pushed else None
+        if known is not None and (known.low <= low).all() and (known.high >= high).all():
+            sight = known
+    if sight is None:
+        beyond = PUSH_SHARE * (high - low) if is_pushed else np.zeros(2)
+        sight = _sight(figure, camera, ratio, low - beyond, high + beyond)
+    flip = np.array([camera.scale, -camera.scale])
+    # The centre goes first: far from the origin this keeps the digits.
+    away = sight.origin - (camera.x_mm, camera.y_mm)
+    shift = away * flip + (camera.width / 2, camera.height / 2)
+    outline = sight.outline
+    return Drawn(
+        figure.curve,
+        figure.parameters,
+        figure,
+        camera,
+        ratio,
+        outline._replace(vertices=snapped(outline.vertices * flip + shift, ratio)),
+        sight.polygon.carried(flip, shift),
+        _shown(figure, camera, low, high),
+        sight.strides,
+        sight,
+    )
+
+
+def _sight(
+    figure: Figure,
+    camera: Camera,
+    ratio: float,
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+) -> Sight:
+    """Find what is drawn within a rectangle."""
     tolerance = TOLERANCE_PX / ratio * camera.pixel_mm
     limit, compact = figure.limit, figure.compact
     if limit is not None and limit.spans >= SPLICED_FROM:
         # Where a chord is cut, both halves of the tolerance may be needed.
         tolerance /= 2
-    low, high = seen_mm(camera)
     centre = np.array([camera.x_mm, camera.y_mm])
     outline = polygon = _NOTHING
-    shown: NDArray[np.intp] | None = _NO_INDICES
     if compact is None or _meets(compact, low, high):
         short = None if compact is None else compact.vertices(tolerance)
         if short is not None and len(short[0]) <= SHORT_VERTICES:
@@ -214,20 +282,7 @@ def traced(figure: Figure, camera: Camera, ratio: float) -> Drawn:
             polygon = _whole(compact.corners, centre, 0.0) if figure.curve.count > 1 else _NOTHING
         elif figure.polygon is not None:
             polygon = view(figure.polygon, low, high, tolerance, centre, placed=figure.placed)
-        shown = _shown(figure, camera, low, high)
-    flip = np.array([camera.scale, -camera.scale])
-    shift = np.array([camera.width / 2, camera.height / 2])
-    return Drawn(
-        figure.curve,
-        figure.parameters,
-        figure,
-        camera,
-        ratio,
-        outline._replace(vertices=snapped(outline.vertices * flip + shift, ratio)),
-        polygon.carried(flip, shift),
-        shown,
-        (stride_of(outline), stride_of(polygon)),
-    )
+    return Sight(low, high, centre, outline, polygon, (stride_of(outline), stride_of(polygon)))
 
 
 def seen_mm(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -254,6 +309,8 @@ def _shown(
 ) -> NDArray[np.intp] | None:
     """Control points in view, unless their signs would only cover the curve."""
     compact, count = figure.compact, figure.curve.count
+    if compact is not None and not _meets(compact, low, high):
+        return _NO_INDICES
     if compact is not None and count >= 3:
         left, bottom, right, top = compact.box
         if left >= low[0] and bottom >= low[1] and right <= high[0] and top <= high[1]:

@@ -244,7 +244,7 @@ class Scene:
             drawn = None if splice is None else splice.drawn()
             if drawn is not None:
                 return drawn
-        return traced(figure, self._camera, self._ratio)
+        return traced(figure, self._camera, self._ratio, before)
 
     def _ghosts(self, document: Document, origin: Document) -> dict[int, Line]:
         """Outlines of the origin's curves where they differ from the present ones."""

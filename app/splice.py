@@ -103,7 +103,7 @@ class Splice:
         shown = None if base.shown is None else self._shown_of(base.shown, curve)
         return Drawn(
             curve, base.scheme, figure, camera, base.ratio, self._outline.filled(bent),
-            self._polygon.filled(straight), shown, base.strides, self,
+            self._polygon.filled(straight), shown, base.strides, splice=self,
         )  # fmt: skip
 
     def _shown_of(self, shown: NDArray[np.intp], curve: Curve) -> NDArray[np.intp]:

@@ -76,6 +76,56 @@ def test_a_move_of_the_view_keeps_the_limit_curve():
     assert scene.curves[0].points_px[0, 0] == pytest.approx(CAMERA.to_pixels(BOAT[0])[0] + 10)
 
 
+@pytest.mark.parametrize("member", ["Calm", "Tight"])
+@pytest.mark.parametrize("count", [12, 120, 2000])
+@pytest.mark.parametrize("offset", [0.0, 1e7])
+def test_a_pushed_paper_shows_the_curve_to_a_quarter_pixel(member, count, offset):
+    """By steps of a hand, and by leaps that nothing found before covers; at rest and zoomed in."""
+    rng = np.random.default_rng(count)
+    angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    flower = (100 + 10 * np.sin(9 * angle))[:, None] * np.stack([np.cos(angle), np.sin(angle)], 1)
+    curve = Curve(flower + offset)
+    document = Document((curve,), PRESETS[member])
+    exact_mm = curve.limit(document.parameters).points(12 if count == 12 else 7)
+    for scale in (2.5, 40.0):
+        camera = Camera(*(exact_mm[0] - 50 / scale), scale, 900, 600)
+        scene, kept = drawn(document, camera), 0
+        for step in range(24):
+            before = scene.curves[0]
+            size = 700 if step % 12 == 11 else 15
+            camera = camera.moved(*rng.uniform(-size, size, 2))
+            (now,) = drawn(document, camera, scene=scene).curves
+            kept += now.parameters is before.parameters
+            for places_mm, line in (
+                (exact_mm, now.outline_line), (curve.points, now.polygon_line)
+            ):  # fmt: skip
+                places = camera.to_pixels(places_mm)
+                seen = places[((places >= 0) & (places <= (900, 600))).all(axis=1)]
+                if len(seen):
+                    some = rng.choice(seen, 60)
+                    found = [away(piece, some) for piece in line.pieces()]
+                    assert np.min(found, axis=0).max() <= 0.25
+            np.testing.assert_array_equal(now.shown, drawn(document, camera).curves[0].shown)
+        assert kept >= 8
+
+
+def test_a_pushed_paper_is_looked_at_anew_for_another_curve_scheme_or_scale():
+    scene = drawn(boat())
+    document = Document((Curve(BOAT),))
+    drawn(document, scene=scene)
+    for change in (
+        lambda: (document, CAMERA.zoomed(1.5)),
+        lambda: (document.with_parameters(PRESETS["Tight"]), CAMERA.moved(3, 0)),
+        lambda: (document.with_curve(0, Curve(1.1 * np.array(BOAT))), CAMERA.moved(3, 0)),
+    ):
+        drawn(document, CAMERA, scene=scene)
+        drawn(document, CAMERA.moved(5, 5), scene=scene)
+        other, camera = change()
+        now = drawn(other, camera, scene=scene).curves[0]
+        fresh = drawn(other, camera).curves[0]
+        np.testing.assert_array_equal(now.vertices_px, fresh.vertices_px)
+
+
 def test_the_ghost_is_the_part_of_the_old_shape_that_changed():
     count = 60
     angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
