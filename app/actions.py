@@ -11,9 +11,9 @@ from enum import Enum
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtGui import QAction, QActionGroup, QIcon, QKeySequence
 
-from app.icons import BAR_PX, SIZES_PX, tinted
+from app.icons import BAR_PX, MODES, SIZES_PX, tinted
 from app.sliders import NEIGHBOUR_TIPS, PRESET_TIPS
 from core.family import PRESETS
 
@@ -307,9 +307,9 @@ class Actions:
         self.ratio = 1.0
         self._groups: dict[str, QActionGroup] = {}
         self._made = {command.key: self._make(command) for command in COMMANDS}
-        # Menus are shut for now, and their icons would take 5 ms.
-        self.tint(TOOL_BAR, (BAR_PX,))
         self.refresh()
+        # Menus are shut for now, and their icons would take 5 ms; the others' other mode, 4 ms.
+        self.tint(TOOL_BAR, (BAR_PX,), as_shown=True)
 
     def __getitem__(self, key: str) -> QAction:
         return self._made[key]
@@ -367,7 +367,10 @@ class Actions:
             self._made[key].setEnabled(bool(session.selection.points))
 
     def tint(
-        self, keys: Collection[str] | None = None, sizes_px: Sequence[int] = SIZES_PX
+        self,
+        keys: Collection[str] | None = None,
+        sizes_px: Sequence[int] = SIZES_PX,
+        as_shown: bool = False,
     ) -> None:
         """Draw icons in the colours of the window's palette, for the pixels of its screen.
 
@@ -377,12 +380,16 @@ class Actions:
             Those of the actions; all by default.
         sizes_px
             Their logical sizes; all by default.
+        as_shown
+            Whether each is drawn only as it is now, normal or disabled.
         """
         palette, self.ratio = self._window.palette(), self._window.devicePixelRatioF()
         for command in COMMANDS:
             if command.icon and (keys is None or command.key in keys):
-                icon = tinted(command.icon, palette, self.ratio, sizes_px)
-                self._made[command.key].setIcon(icon)
+                action = self._made[command.key]
+                now = QIcon.Mode.Normal if action.isEnabled() else QIcon.Mode.Disabled
+                modes = (now,) if as_shown else tuple(MODES)
+                action.setIcon(tinted(command.icon, palette, self.ratio, sizes_px, modes))
 
 
 def native(sequence: QKeySequence) -> str:

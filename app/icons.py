@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Final
 
 from PySide6.QtCore import QBuffer, QByteArray, QSize
@@ -20,10 +20,21 @@ PLACEHOLDER_COLOUR = "currentColor"
 """What the drawings write where the colour of the text belongs."""
 
 
+MODES: Final = {
+    QIcon.Mode.Normal: QPalette.ColorGroup.Active,
+    QIcon.Mode.Disabled: QPalette.ColorGroup.Disabled,
+}
+"""Colours of the two modes in which icons are shown."""
+
+
 def tinted(
-    name: str, palette: QPalette, ratio: float, sizes_px: Sequence[int] = SIZES_PX
+    name: str,
+    palette: QPalette,
+    ratio: float,
+    sizes_px: Sequence[int] = SIZES_PX,
+    modes: Collection[QIcon.Mode] = tuple(MODES),
 ) -> QIcon:
-    """Icon ``name`` in the colours of a palette, normal and disabled.
+    """Icon ``name`` in the colours of a palette.
 
     An icon is a picture of one colour and one density, so it is made anew when the palette changes
     or the window goes to another screen.
@@ -38,14 +49,13 @@ def tinted(
         Number of device pixels in a pixel.
     sizes_px
         Logical sizes that it is drawn in; Qt stretches it to others.
+    modes
+        Whether it is drawn normal, disabled or both; Qt makes the other one up.
     """
     drawing = icon_path(name).read_text(encoding="utf-8")
-    role = QPalette.ColorRole.ButtonText
-    normal = palette.color(QPalette.ColorGroup.Active, role)
-    disabled = palette.color(QPalette.ColorGroup.Disabled, role)
     icon = QIcon()
-    for mode, colour in ((QIcon.Mode.Normal, normal), (QIcon.Mode.Disabled, disabled)):
-        coloured = _coloured(drawing, colour)
+    for mode in modes:
+        coloured = _coloured(drawing, palette.color(MODES[mode], QPalette.ColorRole.ButtonText))
         for size in sizes_px:
             icon.addPixmap(_picture(coloured, size, ratio), mode)
     return icon

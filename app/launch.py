@@ -106,6 +106,7 @@ def _draw(window: MainWindow, path: Path | None, picture: Path, size: tuple[int,
     if not window.analysis.is_at_rest:
         window.analysis.rested.connect(loop.quit)
         loop.exec()
+    window.canvas.measure.look()
     window.grab()  # what the plots lay out in their first paint is in its place in the second
     QTimer.singleShot(0, loop, loop.quit)
     loop.exec()

@@ -75,7 +75,12 @@ class Measure(QObject):
         self._timer.setSingleShot(True)
         self._timer.setInterval(DELAY_MS)
         self._timer.timeout.connect(self.look)
+        self._started = False
         session.changed.connect(self._on_changed)
+
+    def start(self) -> None:
+        """Begin; the program's first paint does not wait for it."""
+        self._started = True
         self._timer.start()
 
     def look(self) -> None:
@@ -83,7 +88,8 @@ class Measure(QObject):
         self.changed.emit(size_of(self._curves()))
 
     def _on_changed(self, old: Document, new: Document) -> None:
-        if old.curves is not new.curves or old.parameters is not new.parameters:
+        is_other = old.curves is not new.curves or old.parameters is not new.parameters
+        if is_other and self._started:
             self._timer.start()
 
 

@@ -371,6 +371,7 @@ class MainWindow(Landing):
         if self.shows_slope and self.docks.basis_plot is not None:
             self.docks.basis_plot.show_slope(True)
         self.analysis.start()
+        self.canvas.measure.start()
         QTimer.singleShot(0, self, self.completed.emit)
 
     @guarded

@@ -1,13 +1,14 @@
 from collections import Counter
 
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QKeySequence
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QKeySequence, QPalette
 from PySide6.QtTest import QTest
 
 from answers import Answers
 from app.actions import COMMANDS, CONTEXT_MENU, MENUS, TOOL_BAR, Reach
 from app.assets import icon_path
+from app.icons import MODES
 from app.keysheet import KeySheet, keys_in_words, sheet
 from app.style import DARK
 from app.theme import window_palette
@@ -212,6 +213,23 @@ def test_icons_take_the_colour_of_the_text(window):
     for command in COMMANDS:
         if command.icon and window.commands[command.key].isEnabled():
             assert ink(command.key) == DARK.text, command.key
+
+
+def test_both_modes_of_every_icon_are_drawn_in_the_end(qtbot, window):
+    """At first only those that are seen; what Qt makes up for the other has other colours."""
+    for command in COMMANDS:
+        if command.icon:
+            icon = window.commands[command.key].icon()
+            for mode, group in MODES.items():
+                ink = window.palette().color(group, QPalette.ColorRole.ButtonText)
+                image = icon.pixmap(QSize(20, 20), mode).toImage()
+                colours = {
+                    image.pixelColor(x, y).name()
+                    for x in range(image.width())
+                    for y in range(image.height())
+                    if image.pixelColor(x, y).alpha() == 255
+                }
+                assert ink.name() in colours, command.key
 
 
 def test_the_sheet_of_keys_tells_all_of_them(qtbot):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.canvas import Canvas
-from app.measure import TOLERANCE_MM, Size, size_of
+from app.measure import DELAY_MS, TOLERANCE_MM, Size, size_of
 from app.opening import ready_document
 from app.session import Session
 from core.affine import Affine
@@ -92,6 +92,7 @@ def test_the_size_follows_when_the_hand_rests(qtbot, canvas_of):
     canvas = canvas_of(ready_document())
     told = []
     canvas.measure.changed.connect(told.append)
+    canvas.measure.start()
     qtbot.waitUntil(lambda: len(told) == 1)
     session = canvas.session
     for name in ("Tight", "B-spline", "Lagrange"):
@@ -100,3 +101,15 @@ def test_the_size_follows_when_the_hand_rests(qtbot, canvas_of):
     qtbot.waitUntil(lambda: len(told) == 2)
     assert told[1] != told[0]
     assert (told[1].width, told[1].height) == pytest.approx(expected(session.document), abs=0.01)
+
+
+def test_nothing_is_measured_before_it_is_begun(qtbot, canvas_of):
+    """The first paint of the program may come later than the hand rests."""
+    canvas = canvas_of(ready_document())
+    told = []
+    canvas.measure.changed.connect(told.append)
+    canvas.session.edit(canvas.session.document.with_parameters(PRESETS["Tight"]), "Tight")
+    qtbot.wait(2 * DELAY_MS)
+    assert not told
+    canvas.measure.start()
+    qtbot.waitUntil(lambda: len(told) == 1)

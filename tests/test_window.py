@@ -70,15 +70,15 @@ def dropped(window, *paths):
     return enter.isAccepted()
 
 
-def test_it_opens_on_a_ready_closed_shape(window):
+def test_it_opens_on_a_ready_closed_shape(qtbot, window):
     (curve,) = window.session.document.curves
     assert curve.closed
     assert np.array_equal(curve.points, READY_POINTS_MM)
     assert window.session.document.parameters == PRESETS["Calm"]
     assert window.windowTitle() == "Untitled[*] - Ninepoint"
     assert not window.isWindowModified()
-    assert window.status.size_label.text() == "99.27 \u00d7 58.35 mm"
     assert window.status.hint.text()
+    qtbot.waitUntil(lambda: window.status.size_label.text() == "99.27 \u00d7 58.35 mm")
 
 
 def test_the_plots_come_after_the_first_paint(qtbot):
