@@ -10,7 +10,7 @@ os.environ.setdefault("QT_NO_GUI_THREADPOOL", "1")  # as `app.theme.styled_appli
 import pytest
 from hypothesis import settings
 
-settings.register_profile("suite", deadline=None, derandomize=True, max_examples=30)
+settings.register_profile("suite", deadline=None, derandomize=True, max_examples=24)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile("suite")
 
