@@ -10,10 +10,12 @@ import subprocess
 import sys
 from itertools import cycle
 from pathlib import Path
+from time import perf_counter, sleep
 
 import numpy as np
 import pytest
 from comparison import Comparison
+from dragged import PAUSE_S
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent, QPaintEvent
 from PySide6.QtWidgets import QApplication
@@ -98,6 +100,31 @@ def test_drag_one_point(
     comparison.row(what, f"{median:.2f} ms, p99 {late:.2f} ms", "2.5 ms, 8 ms")
     send(canvas, QEvent.Type.MouseButtonRelease, start + QPointF(40, 0), LEFT)
     assert canvas.session.undo_name == "Move point"
+
+
+@pytest.mark.parametrize("count", [1_000_000])
+def test_drag_at_the_pace_of_a_hand(comparison: Comparison, canvas: Watched, count: int) -> None:
+    """Other programs have used the processor's caches by then; and it has to wake up."""
+    (drawn,) = canvas.scene.curves
+    start = QPointF(*drawn.places_px(np.array([count // 8]))[0])
+    send(canvas, QEvent.Type.MouseButtonPress, start, LEFT)
+    times: dict[bool, list[float]] = {False: [], True: []}
+    for k in range(640):
+        angle, rests = k * 2 * np.pi / 64, k // 16 % 2 == 1
+        end = perf_counter() + PAUSE_S
+        while not rests and perf_counter() < end:
+            pass
+        if rests:
+            sleep(PAUSE_S)
+        begin = perf_counter()
+        place = start + QPointF(40 * np.cos(angle), 40 * np.sin(angle))
+        send(canvas, QEvent.Type.MouseMove, place, NONE)
+        paint(canvas)
+        times[rests].append(1e3 * (perf_counter() - begin))
+    send(canvas, QEvent.Type.MouseButtonRelease, start + QPointF(40, 0), LEFT)
+    awake, rested = (np.median(times[rests]) for rests in (False, True))
+    what = f"the same every {1e3 * PAUSE_S:.0f} ms, the processor awake; at rest meanwhile"
+    comparison.row(what, f"{awake:.2f} ms; {rested:.2f} ms")
 
 
 @pytest.mark.parametrize("count", [1000])
