@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtCore import QEvent, QSize, QTimer
-from PySide6.QtGui import QColor, QPalette, QResizeEvent
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QToolButton, QWidget
 
 from app.guard import guarded
@@ -137,6 +137,24 @@ class StatusBar(QStatusBar):
                 figure.setFixedHeight(self.proof.sizeHint().height())
 
 
+class HintWords(QLabel):
+    """Words of one line; what does not fit gives way to dots."""
+
+    @guarded
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the words, or as many as there is room for."""
+        metrics, indent = self.fontMetrics(), max(self.indent(), 0)
+        room = self.width() - indent
+        if metrics.horizontalAdvance(self.text()) <= room:
+            super().paintEvent(event)
+            return
+        shown = metrics.elidedText(self.text(), Qt.TextElideMode.ElideRight, room)
+        with QPainter(self) as painter:
+            painter.drawText(
+                self.rect().adjusted(indent, 0, 0, 0), Qt.AlignmentFlag.AlignVCenter, shown
+            )
+
+
 class HintLine(QWidget):
     """A line of words that is cut off where there is no room.
 
@@ -146,7 +164,7 @@ class HintLine(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.words = QLabel(self)
+        self.words = HintWords(self)
         self.words.setAutoFillBackground(True)  # so that the bar is not painted
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
 

@@ -63,6 +63,31 @@ def test_a_long_hint_does_not_widen_the_window(bar):
     assert bar.minimumSizeHint().width() == before
 
 
+def test_a_hint_without_room_ends_in_dots(qtbot, bar):
+    """Before the dots the letters stand where they did; from there on there are others."""
+    hint = type(bar.hint)("Drag a point, or the curve itself, and so on")
+    qtbot.addWidget(hint)
+    hint.setIndent(bar.hint.indent())
+    whole = hint.fontMetrics().horizontalAdvance(hint.text()) + hint.indent()
+
+    def ink(width):
+        """Columns of the picture that have ink."""
+        hint.resize(width, 20)
+        image = hint.grab().toImage()
+        ground = image.pixel(0, 0)
+        return [
+            x
+            for x in range(image.width())
+            if any(image.pixel(x, y) != ground for y in range(image.height()))
+        ]
+
+    free, cut = ink(whole), ink(whole - 30)
+    dots = hint.fontMetrics().horizontalAdvance("\N{HORIZONTAL ELLIPSIS}")
+    same = whole - 30 - 3 * dots
+    assert [x for x in cut if x < same] == [x for x in free if x < same]
+    assert [x for x in cut if x >= same] != [x for x in free if same <= x < whole - 30]
+
+
 def test_a_sentence_takes_the_place_of_the_hint_for_a_while(qtbot):
     bar = StatusBar()
     qtbot.addWidget(bar)
