@@ -47,13 +47,22 @@ class Camera(NamedTuple):
         return 1.0 / self.scale
 
     @property
+    def frame(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """The place in the middle of the view, its scale with y turned over, the middle in pixels.
+
+        Pixels are ``(place - centre) * flip + middle``; each array has the shape (2,) and is
+        read-only.
+        """
+        return _frame(self)
+
+    @property
     def decimals(self) -> int:
         """Decimals of a coordinate in mm that tell one pixel from the next, 0 to 6."""
         return min(max(math.ceil(math.log10(self.scale)), 0), 6)
 
     def to_pixels(self, points_mm: ArrayLike) -> NDArray[np.float64]:
         """Pixels of points in millimetres, shape (..., 2)."""
-        centre, flip, middle = _frame(self)
+        centre, flip, middle = self.frame
         # All x before all y: so NumPy goes along many points, and not across each of them.
         points = np.asarray(points_mm, order="F")
         # The centre goes first: far from the origin this keeps the digits.
@@ -62,14 +71,14 @@ class Camera(NamedTuple):
 
     def to_mm(self, points_px: ArrayLike) -> NDArray[np.float64]:
         """Millimetres of points in pixels, shape (..., 2)."""
-        centre, flip, middle = _frame(self)
+        centre, flip, middle = self.frame
         points: NDArray[np.float64] = (np.asarray(points_px) - middle) / flip + centre
         return points
 
     def rectangle_mm(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lower left and upper right corner of what is in view."""
-        half = np.array([self.width, self.height]) / (2 * self.scale)
-        centre = np.array([self.x_mm, self.y_mm])
+        centre, flip, middle = self.frame
+        half = middle / flip[0]
         return centre - half, centre + half
 
     def resized(self, width: int, height: int) -> Camera:
@@ -131,12 +140,9 @@ class Camera(NamedTuple):
 def _frame(
     camera: Camera,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """The place in the middle of a view, its scale with y turned over, and the middle in pixels.
-
-    Each event asks for them, and numbers take longer to become an array than to be added.
-    """
-    return (
-        np.array([camera.x_mm, camera.y_mm]),
-        np.array([camera.scale, -camera.scale]),
-        np.array([camera.width / 2, camera.height / 2]),
-    )
+    # Each event asks for them, and numbers take longer to become an array than to be added.
+    centre = np.array([camera.x_mm, camera.y_mm])
+    flip = np.array([camera.scale, -camera.scale])
+    middle = np.array([camera.width / 2, camera.height / 2])
+    centre.flags.writeable = flip.flags.writeable = middle.flags.writeable = False
+    return centre, flip, middle

@@ -8,6 +8,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from app.crowd import spacing
+from app.pixel_box import around
 from app.spans import SpanVertices
 from core.affine import Affine
 from core.chords import size_constant
@@ -58,8 +60,7 @@ class Compact:
     @cached_property
     def spacing(self) -> float:
         """Mean distance of neighbouring control points, of which there must be two."""
-        points = self._curve.points
-        return float(np.hypot(*(points[1:] - points[:-1]).T).mean())
+        return spacing(self._curve.points)
 
     @cached_property
     def box(self) -> tuple[float, float, float, float]:
@@ -67,13 +68,10 @@ class Compact:
 
         The curve is a mean of its points, of weights whose sizes sum to `size_constant` at most.
         """
-        points = self._curve.points
-        if self._limit is not None:
-            points = np.concatenate([points, self._placed(self._limit.endless_points)])
-        left, low = np.minimum.reduce(points).tolist()
-        right, high = np.maximum.reduce(points).tolist()
         if self._limit is None:
-            return left, low, right, high
+            return around(self._curve.points, 0.0)
+        # The phantom points, and the control points among them.
+        left, low, right, high = around(self._placed(self._limit.endless_points), 0.0)
         half = (size_constant(self._limit.mask) - 1) / 2
         wide, tall = half * (right - left), half * (high - low)
         return left - wide, low - tall, right + wide, high + tall

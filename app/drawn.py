@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.camera import Camera
 from app.compact import SHORT, Compact, Vertices
+from app.crowd import LEAST_SPACING_PX, MOST_HANDLES, spacing
 from app.figure import Figure
 from app.line import Line, line_of, stride_of
 from app.polyline import SNAPPED_PX, snapped
@@ -27,12 +28,6 @@ if TYPE_CHECKING:
 TOLERANCE_PX: Final = 0.25 - SNAPPED_PX
 """Admitted distance between the curve and its chords, in device pixels. Their ends are snapped,
 too, so that what is drawn is off by a quarter of one at most."""
-
-MOST_HANDLES: Final = 2000
-"""Number of control points in view beyond which they are not shown: they would be a blot."""
-
-LEAST_SPACING_PX: Final = 4.0
-"""Mean distance of neighbours below which control points are not shown: their dots would meet."""
 
 REACH_PX: Final = 12.0
 """How far around the canvas curves and points are drawn: what their pens and handles cover."""
@@ -151,11 +146,19 @@ class Drawn:
     @cached_property
     def handles_px(self) -> NDArray[np.float64]:
         """Pixels of the control points that are shown, shape (h, 2)."""
-        shown = _NO_INDICES if self.shown is None else self.shown
-        return self.places_px(shown)
+        if self._is_whole:
+            return self.points_px
+        return self.places_px(_NO_INDICES if self.shown is None else self.shown)
+
+    @property
+    def _is_whole(self) -> bool:
+        """Whether all points of a short curve are shown."""
+        return self.shown is not None and self.shown is _all(self.curve.count)
 
     def places_px(self, indices: NDArray[np.intp]) -> NDArray[np.float64]:
         """Pixels of some control points, shape (k, 2)."""
+        if self._is_whole:
+            return self.points_px[indices]
         return self.camera.to_pixels(self.curve.places(indices))
 
     def within(
@@ -238,10 +241,9 @@ def traced(figure: Figure, camera: Camera, ratio: float, before: Drawn | None = 
     if sight is None:
         beyond = PUSH_SHARE * (high - low) if is_pushed else np.zeros(2)
         sight = _sight(figure, camera, ratio, low - beyond, high + beyond)
-    flip = np.array([camera.scale, -camera.scale])
+    centre, flip, middle = camera.frame
     # The centre goes first: far from the origin this keeps the digits.
-    away = sight.origin - (camera.x_mm, camera.y_mm)
-    shift = away * flip + (camera.width / 2, camera.height / 2)
+    shift = (sight.origin - centre) * flip + middle
     outline = sight.outline
     return Drawn(
         figure.curve,
@@ -270,7 +272,7 @@ def _sight(
     if limit is not None and limit.spans >= SPLICED_FROM:
         # Where a chord is cut, both halves of the tolerance may be needed.
         tolerance /= 2
-    centre = np.array([camera.x_mm, camera.y_mm])
+    centre = camera.frame[0]
     outline = polygon = _NOTHING
     if compact is None or _meets(compact, low, high):
         short = None if compact is None else compact.vertices(tolerance)
@@ -285,8 +287,9 @@ def _sight(
     return Sight(low, high, centre, outline, polygon, (stride_of(outline), stride_of(polygon)))
 
 
+@lru_cache(maxsize=4)
 def seen_mm(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Corners of what is drawn: the canvas and what reaches into it."""
+    """Corners of what is drawn: the canvas and what reaches into it; not to be written."""
     low, high = camera.rectangle_mm()
     reach = REACH_PX * camera.pixel_mm
     return low - reach, high + reach
@@ -319,8 +322,8 @@ def _shown(
     found = _within(figure, low, high, MOST_HANDLES)
     if found is None or len(found) < 3:
         return found
-    ways = np.diff(figure.curve.places(found), axis=0) * camera.scale
-    return None if float(np.hypot(*ways.T).mean()) < LEAST_SPACING_PX else found
+    apart_px = spacing(figure.curve.places(found)) * camera.scale
+    return None if apart_px < LEAST_SPACING_PX else found
 
 
 @lru_cache(maxsize=SHORT)

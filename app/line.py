@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from PySide6.QtGui import QPolygonF
 
 from app.outline import outline
-from app.pixel_box import Box, apart, around
+from app.pixel_box import Box, apart, around, grown, united
 from app.polyline import SAFE_PX, polygon_of, thinned, within_square
 from core.extreme import largest, same
 from core.runs import Runs, counted
@@ -50,6 +50,9 @@ MOST_IN_PIECE: Final = 256
 
 UNCUT: Final = np.inf
 """Stride of lines that are not cut."""
+
+MOST: Final = 3 / 4
+"""Share of a line's vertices from which on all of it is taken as changed: its box is known."""
 
 _BESIDE: Final = 2
 """Vertices on either side of one that differs up to which the outline depends on it."""
@@ -128,7 +131,7 @@ class Line:
     def _places(self) -> NDArray[np.complex128]:
         """The vertices as numbers x + i y, shape (k,): equal ones are found at once."""
         places = np.empty(len(self.vertices), dtype=np.complex128)
-        places.real, places.imag = self.vertices.T
+        places.real, places.imag = self.vertices[:, 0], self.vertices[:, 1]
         return places
 
     @cached_property
@@ -154,6 +157,8 @@ class Line:
         beside = 1 if is_thin else _BESIDE
         if same(self.t, other.t) and same(self.starts, other.starts):
             changed = self._changed(other)
+            if len(changed) >= MOST * max(len(self.t), 1):
+                return [grown(united([self.box, other.box]), reach)]
             changed = changed if is_thin else self._over_seams(changed)
             return apart((self.vertices, other.vertices), changed, beside, reach)
         mine, others = self._alone(other)

@@ -3,8 +3,9 @@
 Definitions
 -----------
 The *outline* of a polyline goes along its left side at half of its breadth and back along its right
-side, from segment to segment straight on: corners are bevelled. At an open end it goes round in a
-half circle.
+side. Where the line hardly turns, the sides of two segments end where they meet; at a *sharp*
+vertex they go from one to the other straight on: such corners are bevelled. At an open end the
+outline goes round in a half circle.
 
 Notes
 -----
@@ -31,6 +32,11 @@ from PySide6.QtGui import QPainterPath
 
 from app.polyline import polygon_of
 from core.extreme import largest, least
+
+_SHARP: Final = 2 + 2 * 0.9
+"""Square of the sum of two unit vectors below which they differ by more than 26 degrees. The sides
+at such a vertex would meet farther away from it than 1.026 times half of the breadth; straight on
+from one to the other they come as near as 1 / 1.026 of it."""
 
 _ROUND: Final = np.pi * np.arange(1, 6) / 6
 _COS: Final = np.cos(_ROUND)
@@ -75,21 +81,50 @@ def outline(
         kept = np.concatenate([[True], long])
         half = half if isinstance(half, float) else half[kept]
         return outline(places[:, kept].T, half, is_loop)
-    sides = ways[::-1] * _TURNED / lengths
-    # Both ends of each segment: (coordinate, segment, end).
-    both, beside = np.empty((2, len(lengths), 2)), sides[:, :, None]
-    both[:, :, 0], both[:, :, 1] = starts, ends
-    if isinstance(half, float):
-        sides *= half
+    # The left side of each segment, with that behind the last and before the first one.
+    sides = np.empty((2, len(lengths) + 2))
+    np.divide(ways[::-1] * _TURNED, lengths, out=sides[:, 1:-1])
+    before, behind = (-2, 1) if is_loop else (1, -2)
+    sides[:, 0], sides[:, -1] = sides[:, before], sides[:, behind]
+    # Where two sides meet is the farther away from the vertex, the shorter their mean is.
+    beside = sides[:, :-1] + sides[:, 1:]
+    squares = beside * beside
+    sums = squares[0] + squares[1]
+    if least(sums) < _SHARP:
+        at, beside = _bevelled(sides, beside, sums)
+        places = places[:, at]
+        half = half if isinstance(half, float) else half[at]
     else:
-        beside = beside * np.stack([half[:-1], half[1:]], axis=1)
-    left = (both + beside).reshape(2, -1)
-    right = (both - beside).reshape(2, -1)
+        beside *= 2 / sums
+    beside *= half
+    left, backwards = places + beside, (places - beside)[:, ::-1]
     if is_loop:
-        return np.concatenate([left, left[:, :1], right[:, :1], right[:, ::-1]], axis=1).T
-    end = _cap(ends[:, -1:], beside[:, -1, -1:])
-    begin = _cap(starts[:, :1], -beside[:, 0, :1])
-    return np.concatenate([left, end, right[:, ::-1], begin], axis=1).T
+        return np.concatenate([left, left[:, :1], backwards[:, -1:], backwards], axis=1).T
+    end = _cap(places[:, -1:], beside[:, -1:])
+    begin = _cap(places[:, :1], -beside[:, :1])
+    return np.concatenate([left, end, backwards, begin], axis=1).T
+
+
+def _bevelled(
+    sides: NDArray[np.float64], beside: NDArray[np.float64], sums: NDArray[np.float64]
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Vertices, the sharp ones twice, and which way the left side of a line of breadth 2 lies.
+
+    Parameters
+    ----------
+    sides
+        Left sides of the segments, with that behind the last and before the first one.
+    beside, sums
+        Sum of both at each vertex, and its square.
+    """
+    is_sharp = sums < _SHARP
+    sharp = is_sharp.nonzero()[0]
+    at = np.repeat(np.arange(len(sums)), 1 + is_sharp)
+    first = sharp + np.arange(len(sharp))
+    # Two opposite sides have no mean; it is not used.
+    ways = (beside * (2 / np.maximum(sums, _SHARP)))[:, at]
+    ways[:, first], ways[:, first + 1] = sides[:, sharp], sides[:, sharp + 1]
+    return at, ways
 
 
 def path_of(closed: NDArray[np.float64]) -> QPainterPath:

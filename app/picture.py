@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QRect, QRectF
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter
 
+from app.crowd import MOST_HANDLES, is_crowd
 from app.dirt import Key
-from app.drawn import MOST_HANDLES, Drawn
+from app.drawn import Drawn
 from app.ink import Band, Ink, Stroke, Words
 from app.line import Line
 from app.pixel_box import Box, box_of, meeting
@@ -36,9 +37,6 @@ HINT_RISE_PX: Final = 20.0
 
 HINT_ROOM_PX: Final = 28.0
 """Room to leave free below a drawing, besides its margin, while there are words."""
-
-CROWD: Final = 500
-"""Number of control points in view beyond which they are drawn as dots."""
 
 GHOST_OPACITY: Final = 0.8
 RIBBON_OPACITY: Final = 0.34
@@ -319,15 +317,6 @@ def _words(setting: Setting, layer: Layer, text: str) -> Ink:
         colour = palette.warning
     ground: Box = box.left(), box.top(), box.right(), box.bottom()
     return Words(text, font, ground, colour, palette)
-
-
-def is_crowd(points_px: NDArray[np.float64]) -> bool:
-    """Whether control points are so many, or so close, that handles would hide the drawing."""
-    if len(points_px) < 3:
-        return False
-    if len(points_px) > CROWD:
-        return True
-    return float(np.hypot(*np.diff(points_px, axis=0).T).mean()) < SIZES.crowd_spacing
 
 
 def place_of(drawn: Drawn, t: float) -> NDArray[np.float64] | None:

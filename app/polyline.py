@@ -121,7 +121,7 @@ def polygon_of(vertices: NDArray[np.float64]) -> QPolygonF:
         # The type stubs know neither the size of a VoidPtr nor that it is a buffer.
         buffer = VoidPtr(polygon.data(), count * POINT_BYTES, True)  # type: ignore[call-arg, arg-type]
         places = np.frombuffer(buffer, dtype=np.float64)  # type: ignore[call-overload]
-        places[::2], places[1::2] = vertices.T
+        places[::2], places[1::2] = vertices[:, 0], vertices[:, 1]
     return polygon
 
 

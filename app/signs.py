@@ -55,8 +55,8 @@ class _Points:
         if not isinstance(other, _Points) or self.look != other.look:
             return [self.box, other.box]
         if same(self.names, other.names):
-            x, y = (self.places != other.places).T
-            own = (x | y).nonzero()[0]
+            differ = self.places != other.places
+            own = (differ[:, 0] | differ[:, 1]).nonzero()[0]
             return apart((self.places, other.places), own, 0, self.reach)
         # Both name the points in rising order, in which those of both are painted.
         mine, lone = np.ones(len(self.names), bool), np.ones(len(other.names), bool)

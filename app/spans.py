@@ -59,7 +59,8 @@ class SpanVertices:
         reads = mask.end - mask.start + 1
         windows = limit.endless_points[spans.start : spans.stop + reads - 1]
         steps = windows[1:] - windows[:-1]
-        bends = np.hypot(*(steps[1:] - steps[:-1]).T)
+        bends = steps[1:] - steps[:-1]
+        bends = np.hypot(bends[:, 0], bends[:, 1])
         bounds = running_max(bends, reads - 2)
         # The level of a span is the number of those whose chords would be too far off.
         levels = self._admitted(mask, tolerance, largest(bounds)).searchsorted(bounds)
