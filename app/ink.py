@@ -98,9 +98,15 @@ class Stroke:
                 (painter.drawPolygon if is_loop else painter.drawPolyline)(polygon)
             return
         ink = _brush(self.colour, self.opacity)
+        line, half = self.line, self.width / 2
         for piece in near:
+            parts = line.parts(piece, seen, self.reach)
+            if parts is not None:
+                # One path, in which no place is covered twice where two parts cross.
+                painter.fillPath(path_of(*(line.outline_along(part, half) for part in parts)), ink)
+                continue
             if piece not in self._paths:
-                self._paths[piece] = path_of(self.line.outline(piece, self.width / 2))
+                self._paths[piece] = path_of(line.outline(piece, half))
             painter.fillPath(self._paths[piece], ink)
 
 

@@ -52,7 +52,15 @@ UNCUT: Final = np.inf
 """Stride of lines that are not cut."""
 
 MOST: Final = 3 / 4
-"""Share of a line's vertices from which on all of it is taken as changed: its box is known."""
+"""Share of a line's vertices from which on all of it is taken as changed, since its box is known;
+and share of a piece's that come near a box from which on all of it is painted."""
+
+LONG: Final = 96
+"""Number of vertices from which on a broad piece is cut to what is seen of it: in the rows of a
+region Qt looks at all edges to the left of it, and at all rows of edges above and below."""
+
+_GAP: Final = 8
+"""Number of segments up to which two stretches that are seen are taken as one."""
 
 _BESIDE: Final = 2
 """Vertices on either side of one that differs up to which the outline depends on it."""
@@ -90,6 +98,44 @@ class Line:
         part = slice(int(self.starts[piece]), int(self.starts[piece + 1]))
         breadth = half if self.halves is None else self.halves[part]
         return outline(self.vertices[part], breadth, bool(self.loops[piece]))
+
+    def parts(self, piece: int, box: Box, reach: float) -> list[NDArray[np.intp]] | None:
+        """Consecutive vertices of the stretches of a piece that come within a reach of a box.
+
+        Their ends are out of reach. None if they are most of the piece, or it is short.
+        """
+        first, after = int(self.starts[piece]), int(self.starts[piece + 1])
+        segments = after - first - 1
+        if segments < LONG:
+            return None
+        places = self.vertices[first:after].T
+        corners = np.array(grown(box, reach)).reshape(2, 2, 1)
+        # A segment with both ends beyond the same side is out of reach.
+        below, above = places < corners[0], places > corners[1]
+        beyond = below[:, :-1] & below[:, 1:]
+        beyond |= above[:, :-1] & above[:, 1:]
+        near = (~(beyond[0] | beyond[1])).nonzero()[0]
+        if len(near) >= MOST * segments:
+            return None
+        if not len(near):
+            return []
+        gaps = (near[1:] - near[:-1] > _GAP).nonzero()[0]
+        firsts = [int(near[0]), *near[gaps + 1].tolist()]
+        lasts = [*near[gaps].tolist(), int(near[-1])]
+        if not self.loops[piece]:
+            return [first + np.arange(begin, end + 2)
+                    for begin, end in zip(firsts, lasts, strict=True)]  # fmt: skip
+        if len(firsts) > 1 and firsts[0] + segments - lasts[-1] <= _GAP:
+            # Over the seam the last stretch goes on.
+            lasts[-1] = lasts.pop(0) + segments
+            del firsts[0]
+        return [first + np.arange(begin, end + 2) % segments
+                for begin, end in zip(firsts, lasts, strict=True)]  # fmt: skip
+
+    def outline_along(self, part: NDArray[np.intp], half: float) -> NDArray[np.float64]:
+        """Outline of some consecutive vertices, with ends."""
+        breadth = half if self.halves is None else self.halves[part]
+        return outline(self.vertices.T.take(part, axis=1).T, breadth, False)
 
     def polygon(self, piece: int) -> tuple[QPolygonF, bool]:
         """A piece as Qt draws it by a pen, and whether it is a loop; its end is left out then."""

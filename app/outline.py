@@ -127,11 +127,12 @@ def _bevelled(
     return at, ways
 
 
-def path_of(closed: NDArray[np.float64]) -> QPainterPath:
-    """Qt's copy of an outline, to be filled."""
+def path_of(*outlines: NDArray[np.float64]) -> QPainterPath:
+    """Qt's copy of outlines, to be filled together."""
     path = QPainterPath()
-    path.addPolygon(polygon_of(closed))
-    path.closeSubpath()
+    for closed in outlines:
+        path.addPolygon(polygon_of(closed))
+        path.closeSubpath()
     path.setFillRule(Qt.FillRule.WindingFill)
     return path
 

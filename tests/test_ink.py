@@ -21,6 +21,12 @@ def curve(count, centre=(120.0, 120.0), radius=80.0):
     return line_of(runs, count, stride_of(runs))
 
 
+def opened(line):
+    """The same without its last vertices."""
+    count = len(line.t) - 40
+    return Line(line.vertices[:count], line.t[:count], np.array([0, count]))
+
+
 def ribbon(shift=0.0, scale=1.0):
     """A line as broad as it says itself, open and with sharp corners too."""
     vertices = np.concatenate([curve(50).vertices[:31], [(60.0, 190.0), (75.0, 100.0)]])
@@ -34,6 +40,8 @@ def things():
     names = np.arange(60)
     ink = "#123456"
     yield "short wide", Stroke(curve(90), ink, 2.0)
+    yield "wide", Stroke(curve(300), ink, 2.0)
+    yield "wide and open", Stroke(opened(curve(300)), ink, 5.0, 0.5)
     yield "long wide", Stroke(curve(2000), ink, 2.0)
     yield "thin", Stroke(curve(30), ink, 1.0, 0.8, True)
     yield "long thin", Stroke(curve(2000), ink, 1.0, 1.0, True)
