@@ -102,7 +102,8 @@ class Line:
     def parts(self, piece: int, box: Box, reach: float) -> list[NDArray[np.intp]] | None:
         """Consecutive vertices of the stretches of a piece that come within a reach of a box.
 
-        Their ends are out of reach. None if they are most of the piece, or it is short.
+        On either side there is a segment more: where the sides of one end depends on the next. None
+        if they are most of the piece, or it is short.
         """
         first, after = int(self.starts[piece]), int(self.starts[piece + 1])
         segments = after - first - 1
@@ -123,13 +124,13 @@ class Line:
         firsts = [int(near[0]), *near[gaps + 1].tolist()]
         lasts = [*near[gaps].tolist(), int(near[-1])]
         if not self.loops[piece]:
-            return [first + np.arange(begin, end + 2)
+            return [first + np.arange(max(begin - 1, 0), min(end + 3, segments + 1))
                     for begin, end in zip(firsts, lasts, strict=True)]  # fmt: skip
         if len(firsts) > 1 and firsts[0] + segments - lasts[-1] <= _GAP:
             # Over the seam the last stretch goes on.
             lasts[-1] = lasts.pop(0) + segments
             del firsts[0]
-        return [first + np.arange(begin, end + 2) % segments
+        return [first + np.arange(begin - 1, end + 3) % segments
                 for begin, end in zip(firsts, lasts, strict=True)]  # fmt: skip
 
     def outline_along(self, part: NDArray[np.intp], half: float) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtGui import QColor, QFont, QImage, QPainter, QRegion
 
 from app.ink import Band, Stroke, Words
-from app.line import Line, line_of, ribbon_of, stride_of
+from app.line import LONG, WHOLE, Line, line_of, ribbon_of, stride_of
 from app.signs import Dots, Grip, Handles, Ring
 from app.style import LIGHT
 from core.runs import Runs
@@ -108,6 +108,18 @@ def test_in_a_region_there_is_the_ink_of_the_whole(name):
             x, y, w, h = rectangle.getRect()
             held[y : y + h, x : x + w] = True
         np.testing.assert_array_equal(part[held], picture[held])
+
+
+def test_a_line_cut_to_what_is_seen_of_it_leaves_the_same_ink_up_to_the_last_pixel():
+    rng = np.random.default_rng(0)
+    for count in rng.integers(LONG, WHOLE, 40).tolist():
+        line = curve(count, tuple(rng.uniform(90, 150, 2)), rng.uniform(30, 110))
+        stroke = Stroke(opened(line) if count % 2 else line, "#123456", rng.choice([1.5, 2.0, 5.0]))
+        picture = painted(stroke, whole())
+        for x, y, wide, high in rng.integers([0, 0, 4, 4], [200, 200, 120, 120], (4, 4)).tolist():
+            part = painted(stroke, QRegion(x, y, wide, high))
+            seen = slice(y, y + high), slice(x, x + wide)
+            np.testing.assert_array_equal(part[seen], picture[seen])
 
 
 def others():
