@@ -56,8 +56,8 @@ MOST: Final = 3 / 4
 and share of a piece's that come near a box from which on all of it is painted."""
 
 LONG: Final = 96
-"""Number of vertices from which on a broad piece is cut to what is seen of it: in the rows of a
-region Qt looks at all edges to the left of it, and at all rows of edges above and below."""
+"""Number of segments from which on a broad piece is cut to what is seen of it. Qt goes through all
+of a path; to find what is near takes as long as it takes Qt for some thirty segments."""
 
 _GAP: Final = 8
 """Number of segments up to which two stretches that are seen are taken as one."""
