@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import Final
 
-from PySide6.QtCore import QBuffer, QByteArray, QSize
-from PySide6.QtGui import QColor, QIcon, QImageReader, QPalette, QPixmap
+from PySide6.QtGui import QColor, QIcon, QPalette, QPixmap
 
 from app.assets import icon_path
 
@@ -66,15 +65,16 @@ def program_icon() -> QIcon:
     return QIcon(str(icon_path("ninepoint")))
 
 
-def _coloured(drawing: str, colour: QColor) -> QByteArray:
-    return QByteArray(drawing.replace(PLACEHOLDER_COLOUR, colour.name()).encode())
+def _coloured(drawing: str, colour: QColor) -> str:
+    return drawing.replace(PLACEHOLDER_COLOUR, colour.name())
 
 
-def _picture(drawing: QByteArray, size: int, ratio: float) -> QPixmap:
-    # Qt reads SVG as it reads any picture; its module for SVG takes 15 ms of the start to load.
-    source = QBuffer(drawing)  # which the reader does not keep alive
-    reader = QImageReader(source, QByteArray(b"svg"))
-    reader.setScaledSize(QSize(size, size) * ratio)
-    picture = QPixmap.fromImageReader(reader)
+def _picture(drawing: str, size: int, ratio: float) -> QPixmap:
+    # Qt reads SVG as it reads any picture; its module for SVG takes 15 ms of the start to load, and
+    # the classes that tell it how large it shall be 2 ms. The drawing tells it itself.
+    side = round(size * ratio)
+    sized = drawing.replace("<svg ", f'<svg width="{side}" height="{side}" ', 1)
+    picture = QPixmap()
+    picture.loadFromData(sized.encode(), "SVG")
     picture.setDevicePixelRatio(ratio)
     return picture

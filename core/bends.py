@@ -95,7 +95,7 @@ def _refinement(mask: Mask) -> NDArray[np.float64]:
     With ``D2P_m = P_m - 2 P_(m-1) + P_(m-2)``, the symbol of their refinement is
     ``b = a / (1+z)^2``, so that ``D2P_m = sum_j b^[3]_(m - 8 j) D2p_j``, the support of b^[3]
     starting at 7 start. The span 0 reads p_j, j = 1 - end .. 1 - start, and its parts, the cells 4
-    to 11 (`core.cells.refinements`), P_m, m = 5 - end .. 11 - start.
+    to 11 (`core.parts.refinements`), P_m, m = 5 - end .. 11 - start.
 
     Returns
     -------

@@ -29,11 +29,11 @@ _MOVED_SHARE: Final = 1 / 16
 """Share of a curve's points up to which moves are kept apart from the points that they change."""
 
 
-@dataclass(frozen=True, eq=False)
 class _Base:
     """Points that several curves have in common."""
 
-    points: NDArray[np.float64]
+    def __init__(self, points: NDArray[np.float64]) -> None:
+        self.points = points
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

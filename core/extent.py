@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from core.affine import IDENTITY, Affine
 from core.basis import BasicLimitFunction
 from core.blocks import FAN, bends_of, boxes_of
-from core.cells import refinements
 from core.chords import cell_constant
 from core.errors import NoLimitError
+from core.parts import refinements
 from core.pyramid import CurvePyramid
 
 MOST: Final = 256

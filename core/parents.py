@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cache
-from math import comb
+from math import comb, prod
 
 from core.mask import Mask, Stencil
 
@@ -15,13 +15,17 @@ _REACH = 3
 def _lagrange_stencil(position: Fraction) -> Stencil:
     """Weights that evaluate the interpolation polynomial through -3..3 at ``position``."""
     nodes = range(-_REACH, _REACH + 1)
+    above, below = position.numerator, position.denominator
     weights = []
     for node in nodes:
-        weight = Fraction(1)
-        for other in nodes:
-            if other != node:
-                weight *= (position - other) / Fraction(node - other)
-        weights.append(weight)
+        others = [other for other in nodes if other != node]
+        # The product of (position - other) / (node - other), reduced once.
+        weights.append(
+            Fraction(
+                prod(above - below * other for other in others),
+                prod(below * (node - other) for other in others),
+            )
+        )
     return Stencil(-_REACH, tuple(weights))
 
 

@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 from core.affine import IDENTITY, Affine
 from core.basis import BasicLimitFunction
 from core.blocks import FAN, bends_of, boxes_of, from_segments
-from core.cells import STEP, refinements
 from core.chords import cell_constant, chord_constant
 from core.limit import LimitCurve
 from core.mask import Mask
+from core.parts import STEP, refinements
 from core.pyramid import CurvePyramid, Pyramid, contained, meets
 from core.runs import PARTS, Chords, Runs
 

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.basis import BasicLimitFunction
-from core.cells import WIDTH, Cells, excess, refinements
+from core.cells import WIDTH, Cells, excess
 from core.family import PRESETS, Parameters
 from core.limit import LimitCurve
 from oracles import convergent_members
@@ -80,19 +79,3 @@ def test_a_function_within_the_range_exceeds_it_on_neither_side(value):
     for found in excess(Cells(mask, data), -1.0, 2.0):
         assert found.lower == 0
         assert found.upper == pytest.approx(0, abs=1e-12)
-
-
-@given(convergent_members())
-def test_the_parts_of_a_window_draw_the_same_curve(member):
-    from_span, from_cell = refinements(member.mask)
-    basis = BasicLimitFunction(member.mask)
-    width = len(from_cell)
-    window = np.random.default_rng(1).normal(size=width + 1)
-    parts = (window @ from_span).reshape(8, width)
-    expected = window @ basis.span_table(5)
-    drawn = (parts @ basis.cell_table(2))[:, :-1].ravel()
-    np.testing.assert_allclose(drawn, expected[:-1], atol=1e-12)
-    parts = (window[:-1] @ from_cell).reshape(8, width)
-    expected = window[:-1] @ basis.cell_table(5)
-    drawn = (parts @ basis.cell_table(2))[:, :-1].ravel()
-    np.testing.assert_allclose(drawn, expected[:-1], atol=1e-12)
