@@ -134,7 +134,7 @@ DARK: Final = Palette(
 """The same in the dark: a deep grey ground, a near-white curve, light blue handles."""
 
 
-class Sizes(NamedTuple):
+class Sizes:
     """Lengths in logical pixels; the same in both schemes.
 
     Attributes
@@ -160,23 +160,23 @@ class Sizes(NamedTuple):
         A press becomes a drag when the mouse is this far away.
     """
 
-    curve_width: float = 2.0
-    calm_width: float = 1.5
-    polygon_width: float = 1.0
-    point_radius: float = 3.5
-    selected_radius: float = 4.5
-    dot_radius: float = 1.5
-    rim_width: float = 1.5
-    crowd_spacing: float = 9.0
-    ribbon_width: float = 9.0
-    ruler: int = 24
-    label_spacing: float = 80.0
-    minor_spacing: float = 9.0
-    fit_margin: float = 56.0
-    hit_point: float = 10.0
-    hit_curve: float = 6.0
-    hit_edge: float = 6.0
-    drag_start: float = 3.0
+    curve_width: Final = 2.0
+    calm_width: Final = 1.5
+    polygon_width: Final = 1.0
+    point_radius: Final = 3.5
+    selected_radius: Final = 4.5
+    dot_radius: Final = 1.5
+    rim_width: Final = 1.5
+    crowd_spacing: Final = 9.0
+    ribbon_width: Final = 9.0
+    ruler: Final = 24
+    label_spacing: Final = 80.0
+    minor_spacing: Final = 9.0
+    fit_margin: Final = 56.0
+    hit_point: Final = 10.0
+    hit_curve: Final = 6.0
+    hit_edge: Final = 6.0
+    drag_start: Final = 3.0
 
 
 SIZES: Final = Sizes()

@@ -92,10 +92,18 @@ class Comparison:
     def medians(
         self, candidates: Mapping[str, Callable[[], float]], rounds: int
     ) -> dict[str, float]:
-        """Median of what each candidate returns, over some rounds.
+        """Median of what each candidate returns, over some `rounds`."""
+        kept = self.rounds(candidates, rounds)
+        return {name: median(found[name] for found in kept) for name in candidates}
+
+    def rounds(
+        self, candidates: Mapping[str, Callable[[], float]], rounds: int
+    ) -> list[dict[str, float]]:
+        """What each candidate returns, round by round.
 
         Rounds in which the machine was slow are repeated, up to `TRIES` times as many in all; if
-        it never was as fast as it can be, all rounds count.
+        it never was as fast as it can be, all rounds count. Those of one round come one after the
+        other: their quotient says more than that of two medians, where the pace changes.
         """
         calm: list[dict[str, float]] = []
         slow: list[dict[str, float]] = []
@@ -107,8 +115,7 @@ class Comparison:
             (calm if was_calm and self._machine.is_calm() else slow).extend(found)
             if len(calm) >= rounds:
                 break
-        kept = calm if len(calm) >= min(rounds, FEWEST_ROUNDS) else calm + slow
-        return {name: median(found[name] for found in kept) for name in candidates}
+        return calm if len(calm) >= min(rounds, FEWEST_ROUNDS) else calm + slow
 
     def row(self, quantity: str, value: str, budget: str = "") -> None:
         """Put a line into the table."""
