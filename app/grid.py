@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPixmap
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPixmap, QStaticText
 from shiboken6 import wrapInstance
 
 from app.camera import Camera
@@ -36,10 +37,6 @@ AXIS_OPACITY: Final = 0.55
 
 _CORNER_PX: Final = 400.0
 """From here on even the longest number keeps out of the corner of the rulers."""
-
-_LABEL: Final = int(
-    Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextDontClip
-)
 
 _MINOR: Final = {1: (10, 5, 2), 2: (4, 2), 5: (5,)}
 """Parts that a step of 1, 2 or 5 may be cut into, so that the small steps are round as well."""
@@ -316,5 +313,13 @@ def _write_labels(
         # The corner is in the way of the first ones only.
         if place > _CORNER_PX or has_room(axis, place, metrics.horizontalAdvance(text)):
             along = place + LABEL_INDENT_PX if axis == 0 else LABEL_INDENT_PX - place
-            painter.drawText(QRectF(along, 1.0, 1.0, 1.0), _LABEL, text)
+            painter.drawStaticText(QPointF(along, 1.0), _label(text))
     painter.restore()
+
+
+@lru_cache(maxsize=512)
+def _label(text: str) -> QStaticText:
+    """A number, laid out once: while the paper is pushed most of them are seen again."""
+    label = QStaticText(text)
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    return label

@@ -39,9 +39,15 @@ at such a vertex would meet farther away from it than 1.026 times half of the br
 from one to the other they come as near as 1 / 1.026 of it."""
 
 _ROUND: Final = np.pi * np.arange(1, 6) / 6
-_COS: Final = np.cos(_ROUND)
-_SIN: Final = np.sin(_ROUND)
-"""Vertices of a half circle: its chords are off by 3 % of the half breadth."""
+_HALF_TURN: Final = np.concatenate([
+    np.stack([np.cos(_ROUND), -np.sin(_ROUND)], axis=1),
+    np.stack([np.sin(_ROUND), np.cos(_ROUND)], axis=1),
+])  # fmt: skip
+"""Turns a way to the vertices of a half circle, all x, then all y, in pixels with y downwards: its
+chords are off by 3 % of the half breadth."""
+
+_OUTWARDS: Final = np.array([-1.0, 1.0])
+"""Where the left side lies for who looks out of the line at its beginning, and at its end."""
 
 _TURNED: Final = np.array([[1.0], [-1.0]])
 """Turns a way to the left by a right angle, after x and y have changed places."""
@@ -100,9 +106,9 @@ def outline(
     left, backwards = places + beside, (places - beside)[:, ::-1]
     if is_loop:
         return np.concatenate([left, left[:, :1], backwards[:, -1:], backwards], axis=1).T
-    end = _cap(places[:, -1:], beside[:, -1:])
-    begin = _cap(places[:, :1], -beside[:, :1])
-    return np.concatenate([left, end, backwards, begin], axis=1).T
+    last = places.shape[1] - 1
+    caps = _caps(places[:, ::last], beside[:, ::last] * _OUTWARDS)
+    return np.concatenate([left, caps[:, :, 1], backwards, caps[:, :, 0]], axis=1).T
 
 
 def _bevelled(
@@ -137,13 +143,25 @@ def path_of(*outlines: NDArray[np.float64]) -> QPainterPath:
     return path
 
 
-def _cap(middle: NDArray[np.float64], side: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Half circle from one side, (2, 1), forwards to the other, ends left out: shape (2, 5)."""
-    cap: NDArray[np.float64] = middle + _COS * side - _SIN * (side[::-1] * _TURNED)
-    return cap
+def _caps(middles: NDArray[np.float64], sides: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Half circles from one side forwards to the other, their ends left out.
+
+    Parameters
+    ----------
+    middles, sides
+        Shape (2, k): each middle, and the way from it to where its half circle begins.
+
+    Returns
+    -------
+    ndarray
+        Shape (2, 5, k).
+    """
+    around: NDArray[np.float64] = (_HALF_TURN @ sides).reshape(2, 5, -1)
+    around += middles[:, None]
+    return around
 
 
 def _disc(middle: NDArray[np.float64], half: float) -> NDArray[np.float64]:
-    side = np.array([[half], [0.0]])
-    halves = [middle + side, _cap(middle, side), middle - side, _cap(middle, -side)]
-    return np.concatenate(halves, axis=1).T
+    sides = np.array([[half, -half], [0.0, 0.0]])
+    caps, ends = _caps(middle.repeat(2, axis=1), sides), middle + sides
+    return np.concatenate([ends[:, :1], caps[:, :, 0], ends[:, 1:], caps[:, :, 1]], axis=1).T
