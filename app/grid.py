@@ -160,6 +160,16 @@ def paint_ruler(
         painter.drawText(corner, Qt.AlignmentFlag.AlignCenter, "mm")
 
 
+def paint_frame(painter: QPainter, size: tuple[int, int], ink: QColor) -> None:
+    """Draw a line inside of all four edges, of whole device pixels and no broader than a pixel."""
+    ratio = painter.device().devicePixelRatioF()
+    breadth = max(math.floor(ratio), 1) / ratio
+    for axis in (0, 1):
+        length = size[1 - axis]
+        edges = np.array([0.0, size[axis] - breadth])
+        _fill(painter, _boxes(axis, edges, 0, breadth, length), ink)
+
+
 class Background:
     """The grid, opaque, behind a drawing.
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QPointF, QRect, Qt
-from PySide6.QtGui import QFont, QPainter, QPalette, QPen, QPixmap
+from PySide6.QtGui import QFont, QPainter, QPalette, QPixmap
 from PySide6.QtWidgets import QLabel, QWidget
 
 from app.camera import Camera
-from app.grid import Step, paint_ruler
+from app.grid import Step, paint_frame, paint_ruler
 from app.style import SIZES, Palette, color
 
 
@@ -69,8 +69,7 @@ class Rulers:
                 painter.setFont(font)
                 paint_ruler(painter, camera, palette, step, axis)
                 if has_focus:
-                    painter.setPen(QPen(accent, 1.0))
-                    painter.drawRect(0, 0, camera.width - 1, camera.height - 1)
+                    paint_frame(painter, (camera.width, camera.height), accent)
             strip.setGeometry(place)
             strip.setPixmap(picture)
 

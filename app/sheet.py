@@ -7,12 +7,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from app.camera import Camera
 from app.dirt import dirt, region_of
-from app.grid import Background, ruler_font, view_step
+from app.grid import Background, paint_frame, ruler_font, view_step
 from app.guard import guarded
 from app.handover import Handover
 from app.picture import HINT_ROOM_PX, Picture, Setting
@@ -198,8 +198,8 @@ class Sheet(QWidget):
             if self.hasFocus() and _is_at_edge(whole, self.rect()):
                 painter.setClipping(False)
                 painter.setRenderHint(_SMOOTH, False)
-                painter.setPen(QPen(color(setting.palette.accent), 1.0))
-                painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+                size = self.width(), self.height()
+                paint_frame(painter, size, color(setting.palette.accent))
         self._handover.follow(whole.topLeft())
 
     @guarded

@@ -202,6 +202,22 @@ def test_partial_painting_gives_the_whole_picture(qtbot, monkeypatch, count, rat
     assert np.median(shares) < 0.5
 
 
+@pytest.mark.parametrize("ratio", [1.0, 1.25, 1.5, 2.0, 3.0])
+def test_the_frame_of_the_focus_stays_where_what_is_beside_it_is_painted(
+    qtbot, monkeypatch, ratio
+):
+    canvas = shown(qtbot, drawing(8), SIZE)
+    canvas.setFocus()
+    assert canvas.hasFocus()
+    screen = Screen(canvas, ratio, monkeypatch)
+    wide, high = SIZE
+    for part in (
+        (wide - 3, 40, 2, 30), (wide - 2, 90, 1, 30), (60, high - 3, 90, 2), (60, high - 2, 40, 1),
+    ):  # fmt: skip
+        screen.paint(QRegion(*part))
+        assert screen.differences() == 0, part
+
+
 def test_dragging_one_of_many_points_paints_a_small_part(qtbot, monkeypatch):
     for count, most in ((60, 0.5), (700, 0.1), (20_000, 0.1)):
         canvas = shown(qtbot, Document((flower(count),)), SIZE)
