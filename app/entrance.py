@@ -62,9 +62,10 @@ def open_window(
     # paint; `run` begins it after that.
     gc.disable()
     try:
-        from app.loading import load_qt
+        from app.loading import load_numpy, load_qt
 
         load_qt()
+        load_numpy()
         from app.launch import run
 
         return run(path, screenshot, size, theme)

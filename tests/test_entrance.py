@@ -80,7 +80,8 @@ def test_a_library_that_lacks_is_left_to_who_installs_it():
 
 
 def test_what_the_first_paint_does_not_need_is_not_loaded_for_it(tmp_path):
-    later = ["msgspec", "PySide6.QtSvg", "pyqtgraph", "click", "ezdxf", "core.store", "app.drops"]
+    later = ["msgspec", "PySide6.QtSvg", "pyqtgraph", "click", "ezdxf", "core.store", "core.cells",
+             "app.drops"]  # fmt: skip
     code = (
         "import sys\n"
         "from app.loading import load_qt; load_qt()\n"

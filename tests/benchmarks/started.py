@@ -60,10 +60,11 @@ def open_ninepoint(until: str, files: list[str]) -> None:
         from app.cli import main
     else:
         from app.entrance import main
-    from app.loading import load_qt
+    from app.loading import load_numpy, load_qt
 
     gc.disable()  # as app.entrance does before it imports the window
-    load_qt()  # this, too
+    load_qt()  # this, too, and
+    load_numpy()
     from PySide6.QtCore import QSettings, QTimer
 
     from app import launch
