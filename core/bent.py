@@ -14,7 +14,9 @@ at most ``(h^2 / 8) (|A + B| / 2 + s |B - A|)``, ``s = 1 / (9 sqrt(3))`` being t
 C'' is the curve of the scheme ``4 a(z) / (1+z)^2`` on second differences (theory, section 6), and
 leaves the chords between its knots, ``2^level`` in a span, by no more than r, by the bound of
 `core.chords` for that scheme. Between ``t0`` and ``t1`` the polygon of its knots, taken in the
-direction of n, leaves the line from A to B most at a knot, by k. So the curve keeps within
+direction of n, leaves the line from A to B most at a knot, by k. At the only knot between, u after
+t0 and v before t1, this is ``u v / (u + v)`` times the turn of the polygon there. So the curve
+keeps within
 
     ``(h^2 / 8) (|A + B| / 2 + s |B - A| + k + r)``
 
@@ -69,6 +71,8 @@ class _Pains:
         Share of the admitted deviation that the density aims at.
     corrections
         The same for each correction of the density.
+    unseen
+        Share of the admitted deviation that samples leave unseen, where a chord is measured.
     """
 
     levels: tuple[int, ...]
@@ -76,13 +80,16 @@ class _Pains:
     places: int
     aim: float
     corrections: tuple[float, ...]
+    unseen: float
 
 
-_ALL: Final = _Pains((3, 4, 5, 6, 7), 1 / 100, 256, 1.0, (0.995,) * 4 + (0.98,) * 4 + (0.95,) * 2)
+_CORRECTIONS: Final = (0.995,) * 4 + (0.98,) * 4 + (0.95,) * 2
+
+_ALL: Final = _Pains((3, 4, 5, 6, 7), 1 / 100, 256, 1.0, _CORRECTIONS, 1 / 16)
 """Where there is little to cut."""
 
-_SOME: Final = _Pains((3, 4, 5), 1 / 10, 16, 0.9, ())
-"""Where there is much. Aiming at 0.93 takes 1.5 % of the chords away, and a tenth more time."""
+_SOME: Final = _Pains((3, 4, 5), 1 / 10, 16, 0.88, (), 1 / 8)
+"""Where there is much. Aiming at 0.93 takes 2.5 % of the chords away, and a fifth more time."""
 
 _FEW: Final = 2**13
 """Number of chords that is little to cut."""
@@ -106,14 +113,11 @@ _PLACE_LEVELS: Final = (10, 14)
 _STEPS: Final = 8
 """Steps of the density in a chord where it is corrected, at least."""
 
-_BLOCK: Final = 2**16
+_BLOCK: Final = 2**17
 """Number of chords that are made at a time."""
 
-_MOST_KNOTS: Final = 2**18
+_MOST_KNOTS: Final = 2**19
 """Number of knots that are held at a time."""
-
-_SAMPLE_SHARE: Final = 1 / 16
-"""Share of the tolerance that samples leave unseen, where a chord is measured."""
 
 _MOST_SAMPLES: Final = 2**18
 """Number of such samples that are held at a time."""
@@ -144,8 +148,8 @@ class Bending:
         Proven bounds of the distance of C'' from the chords between its knots, one for each span.
     rounding
         Bound of the rounding of a distance.
-    aim, corrections
-        What densities aim at, as shares of the tolerance.
+    aim, corrections, unseen
+        Shares of the tolerance: what densities aim at, and what samples leave out.
     """
 
     def __init__(
@@ -158,7 +162,7 @@ class Bending:
         shortest: float,
     ) -> None:
         self.curve, self.tolerance, self.level, self.rests = curve, tolerance, level, rests
-        self.aim, self.corrections = pains.aim, pains.corrections
+        self.aim, self.corrections, self.unseen = pains.aim, pains.corrections, pains.unseen
         least, greatest = _PLACE_LEVELS
         self.place_level = min(max(ceil(log2(pains.places / shortest)), least), greatest)
         self.rounding = _rounding(curve)
@@ -286,11 +290,12 @@ class BentStretch:
         self._finer = bending.place_level - bending.level
         self._last = (self._end - self._begin) << bending.place_level
         self._rests = bending.rests[slice(*part)]
+        self._kinks = np.pad(np.diff(bends, 2), ((0, 0), (1, 1)))
         sizes = lengths(*bends)
         largest = np.maximum(sizes[:-1], sizes[1:])
         for _ in range(bending.level):
             largest = np.maximum(largest[::2], largest[1::2])
-        self._sizes = largest + self._rests
+        self._largest = np.stack([self._rests, largest + self._rests])
 
     def density(self) -> Density:
         """Of the bend at the knots, and as if its root changed evenly between them."""
@@ -390,16 +395,16 @@ class BentStretch:
         bounds = self._off_lines(first, last, way)
         bounds /= chords + _TINY
         level = self._bending.place_level
-        spans = first >> level, (last - 1) >> level
-        bounds += maxima_between(self._rests, *spans)
+        rests, sizes = maxima_between(self._largest, first >> level, (last - 1) >> level)
+        bounds += rests
         apart = (last - first).astype(np.float64)
-        apart *= 0.5**level
         apart *= apart
-        apart *= ROUNDING / 8
+        apart *= ROUNDING / 8 * 0.25**level
         bounds *= apart
-        apart *= maxima_between(self._sizes, *spans)
+        apart *= sizes
         np.minimum(bounds, apart, out=bounds)
-        unsure = 4 * apart > chords
+        chords /= 4
+        unsure = apart > chords
         np.copyto(bounds, apart, where=unsure)
         unsure |= bounds > self._bending.tolerance
         some = np.flatnonzero(unsure)
@@ -415,7 +420,7 @@ class BentStretch:
         self, first: NDArray[np.intp], last: NDArray[np.intp], way: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """``|A + B| / 2 + s |B - A| + k``, each times the length of the chord, shape (n,)."""
-        finer, (bend_x, bend_y), (way_x, way_y) = self._finer, self._bends, way
+        finer, (way_x, way_y) = self._finer, way
         before = self._bends_at(first)
         off: NDArray[np.float64]
         if (first[1:] == last[:-1]).all():
@@ -428,11 +433,46 @@ class BentStretch:
         off *= 0.5
         rise = stop - start
         off += _SKEW * np.abs(rise)
+        # At a knot that is the only one between, the polygon turns by its second difference.
+        knots = first >> finer
+        knots += 1
+        counts = last - 1
+        counts >>= finer
+        counts -= knots
+        kinks = way_x * taken(self._kinks[1], knots)
+        kinks -= way_y * taken(self._kinks[0], knots)
+        np.abs(kinks, out=kinks)
+        knots <<= finer
+        kinks *= knots - first
+        after = last - knots
+        # None is between: it is the end, or beyond it.
+        np.maximum(after, 0, out=after)
+        kinks *= after
+        kinks /= (last - first) << finer
+        several = np.flatnonzero(counts > 0)
+        if len(several):
+            kinks[several] = self._most_kinked(
+                first[several],
+                last[several],
+                way[:, several],
+                start[several],
+                rise[several],
+            )
+        off += kinks
+        return off
+
+    def _most_kinked(
+        self,
+        first: NDArray[np.intp],
+        last: NDArray[np.intp],
+        way: NDArray[np.float64],
+        start: NDArray[np.float64],
+        rise: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """``k`` times the length of the chord, where knots are between; B - A is ``rise``."""
+        finer, (bend_x, bend_y), (way_x, way_y) = self._finer, self._bends, way
         begin = (first >> finer) + 1
-        counts = ((last - 1) >> finer) + 1 - begin
-        if not counts.any():
-            return off
-        knots = Segments(counts)
+        knots = Segments(((last - 1) >> finer) + 1 - begin)
         seen = knots.spread(begin - knots.starts)
         seen += np.arange(knots.size)
         kinks = knots.spread(way_x)
@@ -440,16 +480,14 @@ class BentStretch:
         other = knots.spread(way_y)
         other *= taken(bend_x, seen)
         kinks -= other
-        rise /= last - first
-        start -= rise * first
-        kinks -= knots.spread(start)
+        steady = rise / (last - first)
+        kinks -= knots.spread(start - steady * first)
         seen <<= finer
-        other = knots.spread(rise)
+        other = knots.spread(steady)
         other *= seen
         kinks -= other
         np.abs(kinks, out=kinks)
-        off += knots.maxima(kinks)
-        return off
+        return knots.maxima(kinks)
 
     def _bends_at(self, places: NDArray[np.intp]) -> NDArray[np.float64]:
         """The polygon of C'' at places, shape (2, k)."""
@@ -484,7 +522,7 @@ class BentStretch:
             Between the ends of a j-th part of it, it keeps to their chord within a j^2-th of this.
         """
         width = last - first
-        steps = np.ceil(np.sqrt(apart / (_SAMPLE_SHARE * self._bending.tolerance)))
+        steps = np.ceil(np.sqrt(apart / (self._bending.unseen * self._bending.tolerance)))
         steps = np.minimum(np.minimum(steps, width), _MOST_SAMPLES // len(steps))
         samples = Segments(np.maximum(steps, 1.0).astype(np.intp))
         places = np.arange(samples.size) - samples.spread(samples.starts)

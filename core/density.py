@@ -66,16 +66,19 @@ class Density:
         chords = np.maximum(np.ceil(sections), 1.0).astype(np.intp)
         if len(chords) < fewest:
             chords[0] = max(chords[0], fewest)
-        begin = np.cumsum(chords) - chords
-        wanted = np.arange(chords.sum()) - np.repeat(begin, chords)
-        wanted = wanted * np.repeat(sections / chords, chords)
-        wanted += np.repeat(ends[:-1], chords)
-        cuts = np.rint(np.interp(wanted, self.sums, self.places)).astype(np.intp)
-        cuts[begin] = fixed[:-1]
+        begin = np.concatenate([[0], np.cumsum(chords)])
+        wanted = np.interp(np.arange(begin[-1] + 1.0), begin, ends)
+        found = np.interp(wanted, self.sums, self.places)
+        cuts: NDArray[np.intp] = np.rint(found, out=found).astype(np.intp)
+        cuts[begin] = fixed
+        rising = cuts[1:] > cuts[:-1]
+        if rising.all():
+            return cuts
         # Where nothing is asked for, any place will do, but it has to be in its section; and where
         # there are fewer places than chords wanted, several meet.
-        np.clip(cuts, np.repeat(fixed[:-1], chords), np.repeat(fixed[1:], chords), out=cuts)
-        cuts = np.maximum.accumulate(np.append(cuts, fixed[-1]))
+        inner = cuts[:-1]
+        np.clip(inner, np.repeat(fixed[:-1], chords), np.repeat(fixed[1:], chords), out=inner)
+        np.maximum.accumulate(cuts, out=cuts)
         kept: NDArray[np.intp] = cuts[np.concatenate([[True], cuts[1:] > cuts[:-1]])]
         return kept
 

@@ -56,7 +56,7 @@ def polyline(curve: LimitCurve, tolerance: float) -> Polyline:
 
     Straight runs take one chord, and chords are as long as their places allow, nearly. Vertices
     are always: the curve at t = 0, its extremes in x and y, places where it turns back on itself,
-    and one in some 50,000 of a large curve.
+    and one in some 100,000 of a large curve.
 
     Parameters
     ----------

@@ -97,11 +97,13 @@ def running_max(values: NDArray[np.float64], size: int) -> NDArray[np.float64]:
 def maxima_between(
     values: NDArray[np.float64], first: NDArray[np.intp], last: NDArray[np.intp]
 ) -> NDArray[np.float64]:
-    """``out[i] = max(values[first[i] : last[i] + 1])``, soon where these are one or two entries."""
-    found: NDArray[np.float64]
-    found = np.maximum(values.take(first, mode="clip"), values.take(last, mode="clip"))
+    """``out[r, i] = max(values[r, first[i] : last[i] + 1])``, soon if these are one or two."""
+    found = np.empty((len(values), len(first)))
     longer = np.flatnonzero(last - first > 1)
-    if len(longer):
-        ends = np.stack([first[longer], last[longer]], axis=1).ravel()
-        found[longer] = np.maximum(found[longer], np.maximum.reduceat(values, ends)[::2])
+    ends = np.stack([first[longer], last[longer]], axis=1).ravel()
+    for row, out in zip(values, found, strict=True):
+        row.take(first, mode="clip", out=out)
+        np.maximum(out, row.take(last, mode="clip"), out=out)
+        if len(longer):
+            out[longer] = np.maximum(out[longer], np.maximum.reduceat(row, ends)[::2])
     return found

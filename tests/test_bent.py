@@ -41,6 +41,29 @@ def test_the_curve_keeps_within_the_bound_of_any_chord(
             assert deviation(stretch, *chord) <= bound
 
 
+@given(st.integers(0, 10**6), st.sampled_from([20, 100, 128, 200, 500]))
+def test_bounds_are_those_of_the_notes_however_many_knots_are_between(seed, width):
+    """The notes chord by chord: A and B, and at each knot between, the kink of the polygon."""
+    curve = LimitCurve(polygon("rough", seed, 8), PRESETS["Calm"].mask, True)
+    bending = Bending.of(curve, 1e-3)
+    stretch = bending.stretch(*bending.parts())
+    step = 1 << (bending.place_level - bending.level)
+    knots = np.arange(stretch._bends.shape[1]) * step
+    rng = np.random.default_rng(seed)
+    first = np.sort(rng.integers(0, int(knots[-1]) - width, 30))
+    last = first + width
+    start, stop = stretch.at(first), stretch.at(last)
+    found = stretch._off_lines(first, last, stop - start)
+    for begin, end, way, off in zip(first, last, (stop - start).T, found, strict=True):
+        inner = knots[(knots > begin) & (knots < end)]
+        x, y = (np.interp([begin, *inner, end], knots, values) for values in stretch._bends)
+        values = way[0] * y - way[1] * x
+        line = np.interp([begin, *inner, end], [begin, end], values[[0, -1]])
+        expected = abs(values[0] + values[-1]) / 2 + abs(values[-1] - values[0]) / np.sqrt(243)
+        expected += abs(values - line).max()
+        assert off == pytest.approx(expected, rel=1e-9, abs=1e-12)
+
+
 @given(st.integers(0, 10**6), st.sampled_from(list(PRESETS)))
 def test_bounds_of_chords_that_fit_are_hardly_larger_than_their_deviations(seed, name):
     curve = LimitCurve(polygon("rough", seed, 8), PRESETS[name].mask, True)

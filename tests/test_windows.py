@@ -39,9 +39,12 @@ def test_the_running_maximum_is_that_of_each_window(size):
 
 def test_maxima_between_are_those_of_each_run():
     rng = np.random.default_rng(4)
-    values = rng.normal(size=60)
+    values = rng.normal(size=(2, 60))
     first = rng.integers(0, 60, 300)
     last = np.minimum(first + rng.integers(0, 6, 300), 59)
     last[::50] = 59
-    expected = [max(values[begin : end + 1]) for begin, end in zip(first, last, strict=True)]
+    expected = [
+        [max(row[begin : end + 1]) for begin, end in zip(first, last, strict=True)]
+        for row in values
+    ]
     np.testing.assert_array_equal(maxima_between(values, first, last), expected)
