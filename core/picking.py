@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import Final
 
 import numpy as np
@@ -10,10 +11,16 @@ from numpy.typing import NDArray
 from core.affine import IDENTITY, Affine
 from core.blocks import FAN
 from core.pyramid import CurvePyramid, PolygonPyramid, Pyramid, contained, meets
+from core.vectors import lengths
 from core.view import view
 
 _FINENESS: Final = 32
 """How much finer than the radius the curve is followed."""
+
+_AT_ONCE: Final = 512
+"""Nodes that are looked at as soon as eight."""
+
+_CHILDREN: Final = np.arange(FAN)
 
 _ROUNDING: Final = 1 + 1e-12
 """Factor on squares of distances that covers their rounding."""
@@ -124,24 +131,26 @@ def nearest_place(
     if not len(blocks):
         return None
     ends, margins = pyramid.spans_of(blocks)
-    spans = _parts(blocks)
-    starts, stops = (ends[:, part].transpose(0, 2, 1) for part in (slice(None, -1), slice(1, None)))
-    margins = margins.transpose(0, 2, 1)
-    boxes = np.empty((4, *spans.shape))
-    np.subtract(np.minimum(starts, stops), margins, out=boxes[:2])
-    np.subtract(-np.maximum(starts, stops), margins, out=boxes[2:])
-    boxes[:, spans >= pyramid.spans] = np.inf
-    kept = search.near(boxes.reshape(4, -1)).reshape(spans.shape)
-    if not kept.any():
-        return None
-    spans = spans[kept]
-    points = np.stack([starts[:, kept], stops[:, kept]], axis=2)
+    spans = _parts(blocks).ravel()
+    spans = spans[: len(spans) + min(pyramid.spans - int(spans[-1]) - 1, 0)]
+    told = np.stack([ends[:, :-1], ends[:, 1:], margins], axis=1)
+    told = told.transpose(0, 1, 3, 2).reshape(2, 3, -1)[..., : len(spans)]
+    level: int | None = 0
     if isinstance(pyramid, CurvePyramid):
-        level = pyramid.level(np.hypot(*margins[:, kept]), tolerance / placed.stretch)
+        straight = tolerance / placed.stretch
+        level = pyramid.level(lengths(*told[:, 2]), straight)
+        if level != 0:
+            kept = search.near(_boxes(told))
+            spans, told = spans[kept], told[..., kept]
+            if not len(spans):
+                return None
+            level = pyramid.level(lengths(*told[:, 2]), straight)
         if level is None:
             return _nearest_seen(pyramid, place, radius, placed)
         if level:
             points = pyramid.curve.span_points(spans, level).transpose(2, 0, 1)
+    if not level:
+        points = told[:, :2].transpose(0, 2, 1)
     x, y = search.offsets(points)
     place_at, share, distance = _on_chords(x, y)
     span, part = divmod(place_at, x.shape[1] - 1)
@@ -185,9 +194,17 @@ def _on_chords(
     return index, float(share.ravel()[index]), float(np.sqrt(squares[index]))
 
 
+def _boxes(told: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Boxes (4, m) of what lies between ends, no further off than a margin: told, (2, 3, m)."""
+    starts, stops, margins = told.swapaxes(0, 1)
+    return np.concatenate(
+        [np.minimum(starts, stops) - margins, -np.maximum(starts, stops) - margins]
+    )
+
+
 def _parts(nodes: NDArray[np.intp]) -> NDArray[np.intp]:
     """Children of nodes, or spans of blocks, whether they exist or not; shape (m, 8)."""
-    return FAN * nodes[:, None] + np.arange(FAN)
+    return FAN * nodes[:, None] + _CHILDREN
 
 
 class _Search:
@@ -210,36 +227,43 @@ class _Search:
         back = placed.inverse
         self._matrix = None if placed.is_shift else placed.matrix
         self._place = back(np.asarray(place, dtype=np.float64))[:, None]
+        self._shift = np.concatenate([-self._place, self._place])
         self._stretch, self._back = placed.stretch, back.stretch
         self._farthest, self._spare = radius, spare
 
     def blocks(self, pyramid: Pyramid) -> NDArray[np.intp]:
         """Nodes of level 0 that may hold the nearest thing, rising."""
         level = pyramid.depth - 1
+        counts = [boxes.shape[1] for boxes in pyramid.blocks.boxes]
+        while level and counts[level - 1] <= _AT_ONCE:
+            level -= 1
         nodes = pyramid.nodes(level)
         nodes = nodes[self.near(pyramid.boxes(level, nodes))]
         while level and len(nodes):
             level -= 1
             nodes = _parts(nodes).ravel()
-            nodes = nodes[nodes < pyramid.blocks.boxes[level].shape[1]]
+            # Only the last node of a level may have fewer.
+            if nodes[-1] >= counts[level]:
+                nodes = nodes[nodes < counts[level]]
             nodes = nodes[self.near(pyramid.boxes(level, nodes))]
         return nodes
 
     def near(self, boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Which boxes (4, m), m >= 1, may hold it; empty ones are infinite."""
-        before, after = boxes[:2] - self._place, boxes[2:] + self._place
-        near, far = np.maximum(before, after), np.minimum(before, after)
-        near = np.maximum(near, 0.0, out=near)
-        near *= near
-        far *= far
-        squares = far[0] + far[1]
-        best = int(squares.argmin())
-        reach = float(self._stretch * np.sqrt(squares[best]))
+        before, after = (boxes + self._shift).reshape(2, 2, -1)
+        ways = np.empty((2, *before.shape))
+        near = np.maximum(before, after, out=ways[0])
+        np.maximum(near, 0.0, out=near)
+        np.minimum(before, after, out=ways[1])
+        ways *= ways
+        nearest, farthest = ways[:, 0] + ways[:, 1]
+        best = int(farthest.argmin())
+        reach = self._stretch * sqrt(farthest[best])
         is_nearer = reach < self._farthest
         self._farthest = min(self._farthest, reach)
         # Of boxes as near as can be told, one is enough, unless all that is equal is sought.
         limit = self._back * (self._farthest - (self._spare if is_nearer else 0.0))
-        found: NDArray[np.bool_] = near[0] + near[1] <= max(limit, 0.0) ** 2 * _ROUNDING
+        found: NDArray[np.bool_] = nearest <= max(limit, 0.0) ** 2 * _ROUNDING
         if is_nearer:
             found[best] = True
         return found

@@ -123,10 +123,11 @@ class CurvePyramid(Pyramid):
 
     def boxes(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
         """See `Pyramid.boxes`."""
-        margins = self._polygon * self.blocks.bends[level][:, nodes]
-        boxes: NDArray[np.float64] = self.blocks.boxes[level][:, nodes]
-        boxes[:2] -= margins
-        boxes[2:] -= margins
+        margins = self.blocks.bends[level].take(nodes, axis=1)
+        margins *= self._polygon
+        boxes = self.blocks.boxes[level].take(nodes, axis=1)
+        both = boxes.reshape(2, 2, -1)
+        both -= margins
         return boxes
 
     def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
