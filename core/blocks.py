@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 from core.live import SIDE, LiveCurve
 from core.ranges import around, within
 from core.runs import PARTS
+from core.vectors import gathered
 
 FAN: Final = PARTS
 """Children of a node. Two or four at a time are joined again when the detail is chosen."""
@@ -116,7 +117,8 @@ class Blocks:
         """Points of the polygon that cut some nodes into their children, shape (2, 9, m)."""
         size: int = FAN**level
         places = np.minimum(size * (FAN * nodes + np.arange(FAN + 1)[:, None]), self.spans)
-        return self.curve.padded[:, SIDE + places]
+        places += SIDE
+        return gathered(self.curve.padded, places)
 
     def _update(self, touched: Iterable[range]) -> None:
         nodes = _unique([np.arange(r.start // FAN, -(-r.stop // FAN)) for r in touched])

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from core.basis import BasicLimitFunction
 from core.blocks import FAN, Blocks, bends_of
 from core.chords import bounds, chord_constant
+from core.vectors import gathered, lengths, taken
 from core.windows import running_max
 
 _FINEST: Final = 6
@@ -59,8 +60,7 @@ class Pyramid(ABC):
 
     def deviations(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
         """How far the polygon leaves the chords of some nodes, shape (m,)."""
-        deviations: NDArray[np.float64] = self.blocks.deviations[level][nodes]
-        return deviations
+        return taken(self.blocks.deviations[level], nodes)
 
     @abstractmethod
     def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
@@ -132,15 +132,15 @@ class CurvePyramid(Pyramid):
 
     def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
         """See `Pyramid.slack`."""
-        x, y = self.blocks.bends[level][:, nodes]
-        slack: NDArray[np.float64] = np.sqrt(x * x + y * y)
+        slack = lengths(*self.blocks.bends[level].take(nodes, axis=1))
         slack *= self._polygon + self._knot
         return slack
 
     def places(self, indices: NDArray[np.intp]) -> NDArray[np.float64]:
         """See `Pyramid.places`."""
         coordinates = self.curve.endless_points.T
-        held = coordinates[:, indices.ravel() + np.arange(len(self._weights))[:, None]]
+        read = indices.ravel() + np.arange(len(self._weights))[:, None]
+        held = gathered(coordinates, read)
         places: NDArray[np.float64] = (self._weights @ held).reshape(2, *indices.shape)
         if not self.curve.closed:
             # The end rules hold up to rounding, which schemes that diverge enlarge.
@@ -152,8 +152,9 @@ class CurvePyramid(Pyramid):
     def spans_of(self, blocks: NDArray[np.intp]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """See `Pyramid.spans_of`."""
         coordinates = self.curve.endless_points.T
+        # What would lie beyond the end is the last point.
         places = FAN * blocks + np.arange(self._limits.shape[1])[:, None]
-        held = coordinates[:, np.minimum(places, coordinates.shape[1] - 1)]
+        held = gathered(coordinates, places)
         ends = self._limits @ held
         bends = running_max(bends_of(held.transpose(0, 2, 1)), self._read)
         margins = self._chord * bends.transpose(0, 2, 1)
@@ -204,8 +205,7 @@ class PolygonPyramid(Pyramid):
 
     def boxes(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
         """See `Pyramid.boxes`."""
-        boxes: NDArray[np.float64] = self.blocks.boxes[level][:, nodes]
-        return boxes
+        return self.blocks.boxes[level].take(nodes, axis=1)
 
     def slack(self, level: int, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
         """Nothing; see `Pyramid.slack`."""

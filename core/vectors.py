@@ -15,6 +15,17 @@ def lengths(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float6
     return np.sqrt(squares, out=squares)
 
 
+def gathered(rows: NDArray[np.float64], indices: NDArray[np.intp]) -> NDArray[np.float64]:
+    """``rows[:, indices]`` for indices >= 0; those beyond the end are the last one.
+
+    Each row lies in one piece: of rows that as a whole do not, NumPy's ``take`` copies all.
+    """
+    found = np.empty((len(rows), *indices.shape))
+    for row, out in zip(rows, found, strict=True):
+        row.take(indices, out=out, mode="clip")
+    return found
+
+
 def taken(values: NDArray[Any], indices: NDArray[np.intp]) -> NDArray[Any]:
     """``values[indices]`` for indices >= 0 that need no check: half of the time."""
     return values.take(indices, mode="clip")
